@@ -1,0 +1,47 @@
+//! Finished gears placed on their axes, and how they move.
+//!
+//! Every picture, solid and file is made from an [`Assembly`]; it knows
+//! nothing of how the gears were designed.
+
+use crate::geometry::Point;
+
+/// A finished gear in its own frame: origin on its axis, mm, counter-clockwise outline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gear {
+    /// Name of the part in every file, such as `driver`.
+    pub name: String,
+    /// Toothed outline with clearance applied; no repeated last point.
+    pub outline: Vec<Point>,
+    /// Hole about the axis, counter-clockwise, or none.
+    pub bore: Option<Vec<Point>>,
+    /// Pitch curve (centrode), counter-clockwise.
+    pub pitch_curve: Vec<Point>,
+    /// The drawing this gear should resemble, placed in the gear's frame.
+    pub input: Vec<Point>,
+    /// Number of teeth on one full turn.
+    pub teeth: u32,
+}
+
+/// A gear on its axis, with its motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedGear {
+    /// The gear.
+    pub gear: Gear,
+    /// World position of the axis, mm.
+    pub axis: Point,
+    /// World rotation at each sample of [`Assembly::driver_angle`], radians,
+    /// counter-clockwise positive, continuous (not wrapped), zero at the first sample.
+    pub angle: Vec<f64>,
+}
+
+/// Gears in mesh and one whole cycle of their motion. All axes are parallel to z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    /// The gears; the first is the driver.
+    pub gears: Vec<PlacedGear>,
+    /// Driver angle phi_D at each motion sample, radians, from zero, increasing;
+    /// the last sample closes the cycle (every gear is back in its first pose).
+    pub driver_angle: Vec<f64>,
+    /// Thickness of every gear, mm, along z from 0.
+    pub thickness: f64,
+}

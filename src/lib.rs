@@ -1,0 +1,13 @@
+//! Centrode turns two drawings into a pair of non-circular gears that mesh.
+
+pub mod assembly;
+pub mod export;
+pub mod fit;
+pub mod geometry;
+pub mod meshing;
+pub mod outline;
+pub mod pitch;
+pub mod policy;
+pub mod report;
+pub mod solid;
+pub mod teeth;

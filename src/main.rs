@@ -1,0 +1,2 @@
+//! The `centrode` command.
+fn main() {}
