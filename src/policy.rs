@@ -2,3 +2,12 @@
 //!
 //! Lengths are relative to the thing they guard (gear module, size of a
 //! shape), so that a design scales without changing its decisions.
+
+// Pitch and fit.
+
+/// Samples a transmission function needs at least: fewer cannot carry even one bump each way.
+pub const MIN_TRANSMISSION_SAMPLES: usize = 8;
+/// Least psi' over its mean. Below it a gear's radius is less than a thousandth of the other's: it passes through its own axis.
+pub const MIN_RELATIVE_SPEED: f64 = 1e-3;
+/// Cap on safeguarded Newton steps; bisection alone reaches rounding in 53.
+pub const MAX_NEWTON_STEPS: usize = 60;
