@@ -1,0 +1,212 @@
+//! Carving one gear with the other: the follower is what the moving driver leaves of a blank.
+//!
+//! The boundary of the region that a moving polygon sweeps consists of paths of its corners and of
+//! places where an edge moves along itself (paper, section 3.3 (iii); envelope theory in Litvin and
+//! Fuentes, ch. 6). Seen from the follower the driver turns about the pitch point `P`, so a boundary
+//! point `q` with tangent `t` moves outward where `(q - P) . t < 0`. A corner is on the envelope
+//! while that sign differs between its two edges, an edge while it differs between its two ends.
+//! Only these pieces are kept, each given a little depth into the driver, and their union is cut
+//! from the blank; the part that holds the follower's axis is the gear. Corner paths are followed
+//! from instant to instant, so no scallops appear between instants.
+
+use rayon::prelude::*;
+
+use super::rolling::{Instant, Rolling, Side};
+use crate::geometry::{self, Point, Vector, cross, quarter_turn};
+use crate::policy;
+
+/// What carving found.
+#[derive(Clone, Debug)]
+pub(crate) struct Carved {
+    /// The follower, counter-clockwise, in its frame; the blank itself when nothing was cut.
+    pub(crate) outline: Vec<Point>,
+    /// Pieces of envelope that were cut away.
+    pub(crate) cuts: usize,
+}
+
+/// Carves `blank` (follower's frame) with `tool` (driver's frame) over `arc` mm of rolling from 0, at
+/// `instants` evenly spaced instants. `depth` (mm) is how far each envelope piece reaches into the
+/// tool; it must stay below the tool's thinnest wall. With `only_inside`, pieces of envelope that lie
+/// outside the blank are left out before any boolean.
+pub(crate) fn carve(
+    rolling: &Rolling<'_>,
+    tool: &[Point],
+    blank: &[Point],
+    arc: f64,
+    instants: usize,
+    depth: f64,
+    only_inside: bool,
+) -> Option<Carved> {
+    let tool = Tool::new(tool, depth);
+    let index = RadialIndex::new(blank);
+    let frames: Vec<Instant> = (0..=instants)
+        .into_par_iter()
+        .map(|k| rolling.at(arc * k as f64 / instants as f64))
+        .collect();
+    let pieces: Vec<Vec<Point>> = frames
+        .par_windows(2)
+        .with_min_len(16)
+        .flat_map_iter(|pair| tool.envelope(&pair[0], &pair[1], &index, only_inside))
+        .collect();
+    if pieces.is_empty() {
+        return Some(Carved { outline: blank.to_vec(), cuts: 0 });
+    }
+    // Unions of neighbouring pieces first: they overlap one another and little else.
+    let chunk = pieces.len().div_ceil(policy::CARVE_CHUNKS).max(1);
+    let merged: Vec<Vec<Point>> = pieces
+        .par_chunks(chunk)
+        .flat_map_iter(|part| geometry::union(part).into_iter().flatten())
+        .collect();
+    let left = geometry::difference(blank, &merged);
+    let outline = left
+        .into_iter()
+        .filter_map(|face| face.into_iter().next())
+        .find(|ring| geometry::contains(ring, Point::origin()))?;
+    Some(Carved { outline, cuts: pieces.len() })
+}
+
+struct Tool<'a> {
+    points: &'a [Point],
+    tangents: Vec<Vector>,
+    /// Each corner moved into the tool.
+    inner: Vec<Point>,
+    convex: Vec<bool>,
+}
+
+impl<'a> Tool<'a> {
+    fn new(points: &'a [Point], depth: f64) -> Self {
+        let n = points.len();
+        let tangents: Vec<Vector> =
+            (0..n).map(|i| (points[(i + 1) % n] - points[i]).normalize()).collect();
+        let before = |i: usize| tangents[(i + n - 1) % n];
+        let inner = (0..n)
+            .map(|i| {
+                let inward = quarter_turn(before(i)) + quarter_turn(tangents[i]);
+                points[i] + depth * inward.try_normalize(1e-12).unwrap_or(quarter_turn(tangents[i]))
+            })
+            .collect();
+        let convex = (0..n).map(|i| cross(before(i), tangents[i]) > 0.0).collect();
+        Self { points, tangents, inner, convex }
+    }
+
+    /// The envelope pieces between two neighbouring instants, in the follower's frame.
+    fn envelope(
+        &self,
+        from: &Instant,
+        to: &Instant,
+        blank: &RadialIndex<'_>,
+        only_inside: bool,
+    ) -> Vec<Vec<Point>> {
+        let n = self.points.len();
+        let pitch = [from, to].map(|i| i.to_local(Side::Driver, i.pitch));
+        let path = |p: Point, i: &Instant| i.to_local(Side::Follower, i.to_world(Side::Driver, p));
+        // Sign of outward motion of point p of an edge with tangent t, at both instants.
+        let outward = |p: Point, t: Vector| [0, 1].map(|k: usize| (p - pitch[k]).dot(&t) < 0.0);
+        let mut pieces = Vec::new();
+        let mut push = |quad: [Point; 4]| {
+            let mut quad = quad.to_vec();
+            if geometry::signed_area(&quad) < 0.0 {
+                quad.reverse();
+            }
+            pieces.push(quad);
+        };
+        for i in 0..n {
+            let p = self.points[i];
+            let t = self.tangents[i];
+            let here = outward(p, t);
+            let there = outward(self.points[(i + 1) % n], t);
+            let last = outward(p, self.tangents[(i + n - 1) % n]);
+            let differs = |a: [bool; 2], b: [bool; 2]| {
+                a[0] != b[0] || a[1] != b[1] || a[0] != a[1] || b[0] != b[1]
+            };
+            let corner = self.convex[i] && differs(here, last);
+            let edge = differs(here, there);
+            if !(corner || edge) {
+                continue;
+            }
+            let p0 = path(p, from);
+            if !blank.near(p0) {
+                continue;
+            }
+            let p1 = path(p, to);
+            let next = (i + 1) % n;
+            let n0 = path(self.points[next], from);
+            if only_inside
+                && ![p0, p1, n0, nalgebra::center(&p0, &n0)].iter().any(|&q| blank.contains(q))
+            {
+                continue;
+            }
+            let (q0, q1) = (path(self.inner[i], from), path(self.inner[i], to));
+            if corner {
+                push([p0, p1, q1, q0]);
+            }
+            if edge {
+                let m0 = path(self.inner[next], from);
+                push([p0, n0, m0, q0]);
+                let (n1, m1) = (path(self.points[next], to), path(self.inner[next], to));
+                push([p1, n1, m1, q1]);
+            }
+        }
+        pieces
+    }
+}
+
+/// Edges of a polygon about the origin by polar angle, to ask what is inside.
+struct RadialIndex<'a> {
+    points: &'a [Point],
+    bins: Vec<Vec<u32>>,
+    farthest: Vec<f64>,
+}
+
+impl<'a> RadialIndex<'a> {
+    fn new(points: &'a [Point]) -> Self {
+        let n = points.len();
+        let count = n.clamp(16, 4096);
+        let mut bins = vec![Vec::new(); count];
+        let mut farthest = vec![0.0_f64; count];
+        let width = std::f64::consts::TAU / count as f64;
+        for i in 0..n {
+            let (a, b) = (points[i], points[(i + 1) % n]);
+            let from = a.y.atan2(a.x);
+            let turn = cross(a.coords, b.coords).atan2(a.coords.dot(&b.coords));
+            let (low, high) = (from.min(from + turn), from.max(from + turn));
+            let (first, last) = ((low / width).floor() as i64, (high / width).floor() as i64);
+            for bin in first..=last {
+                let bin = bin.rem_euclid(count as i64) as usize;
+                bins[bin].push(i as u32);
+                farthest[bin] = farthest[bin].max(a.coords.norm()).max(b.coords.norm());
+            }
+        }
+        Self { points, bins, farthest }
+    }
+
+    fn bin(&self, p: Point) -> usize {
+        let width = std::f64::consts::TAU / self.bins.len() as f64;
+        ((p.y.atan2(p.x) / width).floor() as i64).rem_euclid(self.bins.len() as i64) as usize
+    }
+
+    /// Whether `p` lies within the farthest edge of its bin or of a neighbouring one.
+    fn near(&self, p: Point) -> bool {
+        let (bin, count) = (self.bin(p), self.bins.len());
+        let r = p.coords.norm();
+        [count - 1, 0, 1].iter().any(|d| r <= self.farthest[(bin + d) % count])
+    }
+
+    /// Whether `p` lies inside: an odd number of edges crosses the ray from it away from the origin.
+    fn contains(&self, p: Point) -> bool {
+        let n = self.points.len();
+        let crossings = self.bins[self.bin(p)]
+            .iter()
+            .filter(|&&i| {
+                let (a, b) = (self.points[i as usize], self.points[(i as usize + 1) % n]);
+                let (ca, cb) = (cross(p.coords, a.coords), cross(p.coords, b.coords));
+                if (ca > 0.0) == (cb > 0.0) || a.coords.dot(&p.coords) < 0.0 {
+                    return false;
+                }
+                let hit = a + (b - a) * (ca / (ca - cb));
+                hit.coords.norm_squared() > p.coords.norm_squared()
+            })
+            .count();
+        crossings % 2 == 1
+    }
+}
