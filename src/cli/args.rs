@@ -1,0 +1,183 @@
+//! The command line, as clap reads it.
+
+use std::path::PathBuf;
+
+use centrode::solid::Bore;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use super::units;
+
+/// Turns two drawings into a pair of gears that mesh.
+#[derive(Debug, Parser)]
+#[command(version, about, max_term_width = 100)]
+pub(crate) struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Make a pair of gears from two shapes
+    Design(Box<DesignArgs>),
+    /// List the built-in shapes
+    Shapes(ShapesArgs),
+}
+
+/// Options of `centrode shapes`.
+#[derive(Debug, Args)]
+pub(crate) struct ShapesArgs {
+    /// Also draw all of them on one sheet, into this SVG file
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) sheet: Option<PathBuf>,
+    /// Print the names as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Options of `centrode design`.
+#[derive(Debug, Args)]
+pub(crate) struct DesignArgs {
+    /// Shape of the driver: an SVG, a silhouette image, a point file, or a built-in name
+    #[arg(value_name = "DRIVER")]
+    pub(crate) driver: String,
+    /// Shape of the follower, likewise
+    #[arg(value_name = "FOLLOWER")]
+    pub(crate) follower: String,
+    /// Folder for the files
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Turns of the driver for one turn of the follower: a whole number or 1/whole
+    #[arg(short = 'k', long, default_value = "1", value_name = "K")]
+    pub(crate) ratio: String,
+    /// Print the summary as JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    #[command(flatten)]
+    pub(crate) shape: ShapeArgs,
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
+    #[command(flatten)]
+    pub(crate) teeth: TeethArgs,
+    #[command(flatten)]
+    pub(crate) size: SizeArgs,
+}
+
+/// How the drawings are read.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Reading the shapes")]
+pub(crate) struct ShapeArgs {
+    /// Smoothing of the outlines, 0 (none) to 1 [default: automatic]
+    #[arg(long, value_name = "0..1", value_parser = units::fraction)]
+    pub(crate) smoothing: Option<f64>,
+    /// Grey level that parts shape from background in images, 0 to 255 [default: automatic]
+    #[arg(long, value_name = "LEVEL")]
+    pub(crate) threshold: Option<u8>,
+}
+
+/// How the gears are fitted to the drawings.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Fitting")]
+pub(crate) struct FitArgs {
+    /// How to look for the axes: every place (global) or the paper's coarse grid (paper)
+    #[arg(long, value_enum, default_value_t = SearchArg::Global)]
+    pub(crate) search: SearchArg,
+    /// Weight of the driver torque against likeness (omega)
+    #[arg(long, default_value = "0.2", value_name = "OMEGA", value_parser = units::zero_or_more)]
+    pub(crate) torque_weight: f64,
+    /// Whose likeness matters more: 1 keeps the driver, 0 the follower (t)
+    #[arg(long, default_value = "0.5", value_name = "T", value_parser = units::fraction)]
+    pub(crate) balance: f64,
+    /// Largest driver torque allowed, in multiples of the follower's [default: no limit]
+    #[arg(long, value_name = "FACTOR", value_parser = units::positive)]
+    pub(crate) max_torque: Option<f64>,
+    /// Steepest lean of the pitch curve against its radius, degrees
+    #[arg(long, default_value = "55", value_name = "DEGREES", value_parser = units::degrees)]
+    pub(crate) max_lean: f64,
+}
+
+/// What the teeth are like.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Teeth")]
+pub(crate) struct TeethArgs {
+    /// Teeth of the driver [default: chosen from size and curvature]
+    #[arg(long, value_name = "N", conflicts_with = "module")]
+    pub(crate) teeth: Option<u32>,
+    /// Module: teeth are this times pi apart [default: chosen]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length)]
+    pub(crate) module: Option<f64>,
+    /// Involute flanks that touch without error, or the waves of the paper
+    #[arg(long, value_enum, default_value_t = StyleArg::Involute)]
+    pub(crate) teeth_style: StyleArg,
+    /// Pressure angle, degrees; steeper ones are used where the curve bends fast
+    #[arg(long, default_value = "20", value_name = "DEGREES", value_parser = units::degrees)]
+    pub(crate) pressure_angle: f64,
+    /// Height of a tooth above the pitch curve, in modules
+    #[arg(long, default_value = "1", value_name = "MODULES", value_parser = units::positive)]
+    pub(crate) addendum: f64,
+    /// Gap left on every face of each gear
+    #[arg(long, default_value = "0.1mm", value_name = "LENGTH", value_parser = units::length_or_zero)]
+    pub(crate) clearance: f64,
+    /// Backlash along the pitch curve: thins the flanks only
+    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero)]
+    pub(crate) backlash: f64,
+    /// Extra depth of the roots below a mating tip [default: 0.25 module]
+    #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero)]
+    pub(crate) root_clearance: Option<f64>,
+    /// Cut the follower with the exact sweep, or literally as solids with Manifold (slow)
+    #[arg(long, value_enum, default_value_t = CarverArg::Sweep)]
+    pub(crate) carve_with: CarverArg,
+    /// Deliver nothing when a first attempt is not sound, instead of trying gentler settings
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// Write the files even when the pair is not sound (exit code 1)
+    #[arg(long, conflicts_with = "strict")]
+    pub(crate) force: bool,
+}
+
+/// How large things are.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Size")]
+pub(crate) struct SizeArgs {
+    /// Distance between the axes, or lego:N for N studs of 8 mm
+    #[arg(long, default_value = "80mm", value_name = "LENGTH", value_parser = units::center_distance)]
+    pub(crate) center_distance: f64,
+    /// Largest extent of the pair, instead of the distance between the axes
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, conflicts_with = "center_distance")]
+    pub(crate) size: Option<f64>,
+    /// Thickness of the gears
+    #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length)]
+    pub(crate) thickness: f64,
+    /// Hole for the axle: a diameter, lego, or none
+    #[arg(long, default_value = "5mm", value_name = "BORE", value_parser = units::bore)]
+    pub(crate) bore: Bore,
+}
+
+/// How to look for the axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SearchArg {
+    /// Dense search with refinement
+    Global,
+    /// Recursive 3x3 grid of the paper
+    Paper,
+}
+
+/// Style of teeth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StyleArg {
+    /// Generalised involutes
+    Involute,
+    /// Waves with the heights of Eq. 17
+    Wave,
+}
+
+/// What carves the follower.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CarverArg {
+    /// The exact envelope of the driver's motion
+    Sweep,
+    /// A disc minus the driver at many instants, as solids
+    Manifold,
+}

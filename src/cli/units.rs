@@ -1,0 +1,119 @@
+//! Lengths and angles as people type them.
+
+use centrode::solid::Bore;
+
+/// Studs of the well-known building brick, mm.
+const STUD_MM: f64 = 8.0;
+
+/// A length in mm from `80`, `80mm`, `8cm` or `3in`.
+pub(crate) fn length(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("\"", 25.4), ("m", 1000.0)];
+    let (number, scale) = units
+        .iter()
+        .find_map(|(unit, scale)| text.strip_suffix(unit).map(|rest| (rest.trim(), *scale)))
+        .unwrap_or((text, 1.0));
+    let value: f64 = number
+        .parse()
+        .map_err(|_| format!("'{text}' is not a length; write it like 80mm, 8cm or 3in"))?;
+    if value.is_finite() {
+        Ok(value * scale)
+    } else {
+        Err(format!("'{text}' is not a finite length; write it like 80mm"))
+    }
+}
+
+/// A length above zero.
+pub(crate) fn positive_length(text: &str) -> Result<f64, String> {
+    match length(text)? {
+        value if value > 0.0 => Ok(value),
+        _ => Err(format!("'{text}' is not above zero; give a length such as 80mm")),
+    }
+}
+
+/// A length of zero or more.
+pub(crate) fn length_or_zero(text: &str) -> Result<f64, String> {
+    match length(text)? {
+        value if value >= 0.0 => Ok(value),
+        _ => Err(format!("'{text}' is below zero; give 0 or more, such as 0.1mm")),
+    }
+}
+
+/// A centre distance: a length, or `lego:N` for N studs of 8 mm.
+pub(crate) fn center_distance(text: &str) -> Result<f64, String> {
+    let Some(studs) = text.strip_prefix("lego:") else {
+        return positive_length(text);
+    };
+    match studs.parse::<u32>() {
+        Ok(count) if count > 0 => Ok(f64::from(count) * STUD_MM),
+        _ => Err(format!("'{text}' does not name a number of studs; write it like lego:10")),
+    }
+}
+
+/// An angle in radians from degrees.
+pub(crate) fn degrees(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches("deg").trim_end_matches('°').trim();
+    match number.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value.to_radians()),
+        _ => Err(format!("'{text}' is not an angle in degrees; write it like 20")),
+    }
+}
+
+/// A number above zero.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err(format!("'{text}' is not a number above zero")),
+    }
+}
+
+/// A number of zero or more.
+pub(crate) fn zero_or_more(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err(format!("'{text}' is not a number of zero or more")),
+    }
+}
+
+/// A number from 0 to 1.
+pub(crate) fn fraction(text: &str) -> Result<f64, String> {
+    match zero_or_more(text)? {
+        value if value <= 1.0 => Ok(value),
+        _ => Err(format!("'{text}' is not between 0 and 1")),
+    }
+}
+
+/// A bore: `none`, `lego`, or the diameter of a round hole.
+pub(crate) fn bore(text: &str) -> Result<Bore, String> {
+    match text {
+        "none" => Ok(Bore::None),
+        "lego" => Ok(Bore::lego()),
+        _ => positive_length(text).map(|diameter| Bore::Round { diameter }).map_err(|_| {
+            format!("'{text}' is not a bore; write none, lego, or a diameter such as 5mm")
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_in_several_units() {
+        assert_eq!(length("80mm"), Ok(80.0));
+        assert_eq!(length(" 8 cm"), Ok(80.0));
+        assert_eq!(length("80"), Ok(80.0));
+        assert!((length("3in").unwrap_or(0.0) - 76.2).abs() < 1e-12);
+        assert_eq!(center_distance("lego:10"), Ok(80.0));
+        assert!(positive_length("0").is_err() && positive_length("-3mm").is_err());
+        assert!(length("nan").is_err() && length("abc").is_err());
+        assert!(center_distance("lego:0").is_err() && center_distance("lego:x").is_err());
+    }
+
+    #[test]
+    fn bores_by_name_or_diameter() {
+        assert_eq!(bore("none"), Ok(Bore::None));
+        assert_eq!(bore("5mm"), Ok(Bore::Round { diameter: 5.0 }));
+        assert!(bore("wide").is_err());
+    }
+}
