@@ -1,0 +1,279 @@
+//! Quasi-static contact analysis of two gears, from their outlines alone.
+//!
+//! The driver is held at an angle, the follower is turned about its axis
+//! from its designed angle until the outlines touch: behind, where the load
+//! presses it against the driver, and ahead. Nothing is assumed about how
+//! the outlines were made. Frames: the driver's axis is the origin, the
+//! follower's lies at (L, 0); at driver angle phi the driver is turned by
+//! phi and the follower by -psi(phi), counter-clockwise positive.
+
+use super::play::{Body, Play, Pose, Touch, free_play};
+use super::summary::ContactSummary;
+use crate::geometry::{Point, Vector, cross};
+use crate::policy;
+use rayon::prelude::*;
+use std::f64::consts::{FRAC_PI_4, PI};
+
+/// Two gears, where they sit and how they are meant to turn.
+#[derive(Clone, Copy)]
+pub struct ContactInput<'a> {
+    /// Driver outline in its own frame, mm, counter-clockwise, no repeated last point.
+    pub driver: &'a [Point],
+    /// Follower outline in its own frame, mm, counter-clockwise, no repeated last point.
+    pub follower: &'a [Point],
+    /// Distance of the axes, mm.
+    pub center_distance: f64,
+    /// Module, mm: pitch over pi, measured along the pitch curve.
+    pub module: f64,
+    /// psi: follower angle, radians clockwise, at a driver angle in radians.
+    pub motion: &'a (dyn Fn(f64) -> f64 + Sync),
+    /// psi', the derivative of the motion; positive.
+    pub motion_derivative: &'a (dyn Fn(f64) -> f64 + Sync),
+    /// Driver angle of one whole cycle of both gears, radians (2 pi K for integer K).
+    pub driver_cycle: f64,
+}
+
+impl std::fmt::Debug for ContactInput<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ContactInput")
+            .field("driver", &self.driver.len())
+            .field("follower", &self.follower.len())
+            .field("center_distance", &self.center_distance)
+            .field("module", &self.module)
+            .field("driver_cycle", &self.driver_cycle)
+            .finish_non_exhaustive()
+    }
+}
+
+/// How closely to look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactOptions {
+    /// Poses over the cycle, placed by the golden ratio: they lie on no grid of teeth.
+    pub poses: usize,
+    /// Largest turn of the follower in search of a contact, as a share of its angular pitch at
+    /// the pitch point. No contact within it is lost contact.
+    pub search_pitch: f64,
+    /// Surfaces closer than this count as in contact, in modules.
+    pub contact_distance: f64,
+}
+
+impl Default for ContactOptions {
+    fn default() -> Self {
+        Self {
+            poses: policy::CONTACT_POSES,
+            search_pitch: policy::CONTACT_SEARCH_PITCH,
+            contact_distance: policy::CONTACT_DISTANCE,
+        }
+    }
+}
+
+/// Why an analysis cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// An outline has no area.
+    #[error("the {gear} has {count} points; give an outline of at least three")]
+    TooFewPoints {
+        /// `driver` or `follower`.
+        gear: &'static str,
+        /// Points given.
+        count: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("point {index} of the {gear} is not a finite number; correct it")]
+    NotFinite {
+        /// `driver` or `follower`.
+        gear: &'static str,
+        /// Index of the point, from zero.
+        index: usize,
+    },
+    /// A length, an angle or a count is not a positive number.
+    #[error("the {name} is {value}; give a positive number")]
+    NotPositive {
+        /// What it is.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// The motion is not finite, or its derivative not positive.
+    #[error("the motion is not increasing at driver angle {driver_angle:.6} rad; give one that is")]
+    BadMotion {
+        /// Driver angle, radians.
+        driver_angle: f64,
+    },
+}
+
+/// One place where the driver touches the follower under load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// World position, mm.
+    pub point: Point,
+    /// World direction from the driver into the follower, unit length.
+    pub normal: Vector,
+    /// What is left between the surfaces along the normal, mm: 0 for the first contact.
+    pub separation: f64,
+    /// Working pressure angle, radians: between the normal and the perpendicular to the line
+    /// of centres, which is the way both gears move at the pitch point.
+    pub pressure_angle: f64,
+}
+
+/// What was found at one driver angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactPose {
+    /// Driver angle phi, radians.
+    pub driver_angle: f64,
+    /// Turn of the follower back from its designed angle until it touches, radians; negative
+    /// when the gears interfere at the designed angle and it must first turn ahead by so much.
+    /// The searched range when there is no contact.
+    pub play_behind: f64,
+    /// The same in the direction of its motion.
+    pub play_ahead: f64,
+    /// Follower angle under load less its designed angle, radians: `-play_behind`.
+    pub transmission_error: f64,
+    /// The same as arc at the pitch point, as a fraction of the pitch.
+    pub transmission_error_pitch: f64,
+    /// No contact under load within the searched range.
+    pub lost: bool,
+    /// No contact when the follower runs ahead (load reversed) within the searched range.
+    pub lost_reversed: bool,
+    /// One contact for each pair of teeth that touches under load, the first one first.
+    pub contacts: Vec<Contact>,
+    /// How deep a point of one gear lies inside the other at the designed angle, mm; 0 if clear.
+    pub interference: f64,
+    /// Radius of the follower's pitch curve at the pitch point, mm.
+    pub follower_radius: f64,
+    /// Turn of the follower by one pitch at that radius, radians.
+    pub pitch_angle: f64,
+}
+
+/// Every pose in the order of the driver's angle, and what they amount to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactAnalysis {
+    /// The poses.
+    pub poses: Vec<ContactPose>,
+    /// The figures to judge by.
+    pub summary: ContactSummary,
+}
+
+/// Analyses the contact of two gears over one cycle.
+///
+/// Plays are exact for the polygons given, up to rounding; interference is measured at the
+/// outlines' points (and at points between, a quarter module apart). Work grows with the number
+/// of points near the other gear, not with the size of the gears.
+///
+/// # Errors
+/// See [`ContactError`].
+pub fn analyse(
+    input: &ContactInput<'_>,
+    options: &ContactOptions,
+) -> Result<ContactAnalysis, ContactError> {
+    check(input, options)?;
+    let spacing = policy::CONTACT_PROBE_SPACING * input.module;
+    let (driver, follower) =
+        rayon::join(|| Body::new(input.driver, spacing), || Body::new(input.follower, spacing));
+    let mut shares: Vec<f64> =
+        (0..options.poses).map(|i| ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract()).collect();
+    shares.sort_by(f64::total_cmp);
+    let poses = shares
+        .into_par_iter()
+        .map(|share| pose_at(input, options, &driver, &follower, share * input.driver_cycle))
+        .collect::<Result<Vec<_>, _>>()?;
+    let summary = ContactSummary::new(&poses, input.driver_cycle);
+    Ok(ContactAnalysis { poses, summary })
+}
+
+fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), ContactError> {
+    for (gear, outline) in [("driver", input.driver), ("follower", input.follower)] {
+        if outline.len() < 3 {
+            return Err(ContactError::TooFewPoints { gear, count: outline.len() });
+        }
+        if let Some(index) = outline.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+            return Err(ContactError::NotFinite { gear, index });
+        }
+    }
+    let numbers = [
+        ("centre distance", input.center_distance),
+        ("module", input.module),
+        ("driver cycle", input.driver_cycle),
+        ("number of poses", options.poses as f64),
+        ("search range", options.search_pitch),
+        ("contact distance", options.contact_distance),
+    ];
+    match numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
+        Some((name, value)) => Err(ContactError::NotPositive { name, value }),
+        None => Ok(()),
+    }
+}
+
+fn pose_at(
+    input: &ContactInput<'_>,
+    options: &ContactOptions,
+    driver: &Body,
+    follower: &Body,
+    driver_angle: f64,
+) -> Result<ContactPose, ContactError> {
+    let follower_angle = (input.motion)(driver_angle);
+    let ratio = (input.motion_derivative)(driver_angle);
+    if !(follower_angle.is_finite() && ratio.is_finite() && ratio > 0.0) {
+        return Err(ContactError::BadMotion { driver_angle });
+    }
+    let follower_radius = input.center_distance / (1.0 + ratio);
+    let pitch = PI * input.module / follower_radius;
+    let near = options.contact_distance * input.module;
+    let pose = Pose {
+        driver_angle,
+        follower_angle,
+        center_distance: input.center_distance,
+        // Half a quarter turn: more would find the far side of a gear of very few teeth.
+        max_play: (options.search_pitch * pitch).min(FRAC_PI_4),
+        // Twice the turn that closes the contact distance at the pitch radius: it covers contacts
+        // whose normal passes the axis at half that radius or more.
+        slack: 2.0 * near / follower_radius,
+        pitch_point: Point::new(input.center_distance - follower_radius, 0.0),
+    };
+    let play = free_play(driver, follower, &pose);
+    let contacts = contacts(&play, input, options);
+    let behind = play.behind.unwrap_or(pose.max_play);
+    Ok(ContactPose {
+        driver_angle,
+        play_behind: behind,
+        play_ahead: play.ahead.unwrap_or(pose.max_play),
+        transmission_error: -behind,
+        transmission_error_pitch: -behind / pitch,
+        lost: play.behind.is_none(),
+        lost_reversed: play.ahead.is_none(),
+        contacts,
+        interference: play.depth,
+        follower_radius,
+        pitch_angle: pitch,
+    })
+}
+
+/// One contact per pair of teeth out of all touching places.
+fn contacts(play: &Play, input: &ContactInput<'_>, options: &ContactOptions) -> Vec<Contact> {
+    let Some(first) = play.behind else { return Vec::new() };
+    let axis = Point::new(input.center_distance, 0.0);
+    let separation = |touch: &Touch| {
+        (touch.turn - first).max(0.0) * cross(touch.point - axis, touch.normal).abs()
+    };
+    let near = options.contact_distance * input.module;
+    let mut places: Vec<(f64, &Touch)> =
+        play.touches.iter().map(|t| (separation(t), t)).filter(|(s, _)| *s <= near).collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let apart = policy::SAME_TOOTH_DISTANCE * input.module;
+    let mut found: Vec<Contact> = Vec::new();
+    for (separation, touch) in places {
+        if found.iter().all(|c| (c.point - touch.point).norm() > apart) {
+            found.push(Contact {
+                point: touch.point,
+                normal: touch.normal,
+                separation,
+                pressure_angle: touch.normal.y.abs().min(1.0).acos(),
+            });
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+#[path = "contact_tests.rs"]
+mod tests;
