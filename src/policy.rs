@@ -64,6 +64,9 @@ pub const ROOT_RAYS: usize = 21;
 pub const ROOT_INSTANTS: usize = 25;
 /// Extra rolling on both ends of the cap's passage, in pitches: the corner must have turned away.
 pub const ROOT_MARGIN: f64 = 0.05;
+/// Roots are drawn deeper than the envelope by this, in modules: more than their chords cut off, so
+/// that a tip corner passes without touching.
+pub const ROOT_RELIEF: f64 = 2e-3;
 /// Golden-section steps between instants; each shrinks the bracket by 0.618.
 pub const ROOT_REFINEMENTS: usize = 12;
 /// A space that opens by less than this angle (radians) from its middle has no root to speak of.

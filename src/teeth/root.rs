@@ -154,7 +154,8 @@ pub(crate) fn root_curve(
                 points.windows(2).filter_map(|e| crossing(e[0], e[1], rays[i])).fold(0.0, f64::max)
             };
             let at = start + step * k as f64;
-            let r = largest_near(reach, at - step, at + step).max(found);
+            let r = largest_near(reach, at - step, at + step).max(found)
+                + policy::ROOT_RELIEF * rack.module;
             let (sin, cos) = rays[i].sin_cos();
             center + r * (sin * frame.tangent - cos * frame.normal)
         })
