@@ -1,11 +1,17 @@
 //! Closed curves and where they come from: SVG drawings, silhouette images,
 //! point files and the built-in library; smoothing and normalisation.
 
+mod normalize;
+mod points;
 mod repair;
 mod simplify;
+mod smooth;
 
+pub use normalize::{Similarity, normalized};
+pub use points::{PointsError, from_columns, from_json};
 pub use repair::repaired;
 pub use simplify::simplify;
+pub use smooth::{Smoothing, resample, smooth};
 
 use crate::geometry::{self, Point};
 
