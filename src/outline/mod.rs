@@ -1,17 +1,26 @@
 //! Closed curves and where they come from: SVG drawings, silhouette images,
 //! point files and the built-in library; smoothing and normalisation.
 
+mod contour;
+pub mod library;
+mod load;
 mod normalize;
 mod points;
 mod repair;
+mod silhouette;
 mod simplify;
 mod smooth;
+mod svg;
+mod svg_guard;
 
+pub use load::{LoadError, LoadOptions, Shape, load};
 pub use normalize::{Similarity, normalized};
 pub use points::{PointsError, from_columns, from_json};
 pub use repair::repaired;
+pub use silhouette::{ImageError, from_image};
 pub use simplify::simplify;
 pub use smooth::{Smoothing, resample, smooth};
+pub use svg::{SvgError, from_svg};
 
 use crate::geometry::{self, Point};
 

@@ -75,12 +75,11 @@ fn outer_rings(shapes: Vec<Vec<Ring>>) -> Vec<Ring> {
     outer
 }
 
-/// The union of counter-clockwise rings as [`filled_parts`] gives it, where parts nearer than
-/// `touch` (unit of the rings) are joined.
+/// Joins separate parts, as [`filled_parts`] gives them, that are nearer to each other than
+/// `touch` (unit of the rings).
 ///
 /// Only when something is joined by it is the boundary moved, outwards by half of `touch`.
-pub(super) fn united(rings: &[Ring], touch: f64) -> Vec<Ring> {
-    let parts = filled_parts(rings, FillRule::NonZero);
+pub(super) fn joined(parts: Vec<Ring>, touch: f64) -> Vec<Ring> {
     if parts.len() < 2 {
         return parts;
     }
@@ -91,8 +90,8 @@ pub(super) fn united(rings: &[Ring], touch: f64) -> Vec<Ring> {
     if grown.len() >= parts.len() {
         return parts;
     }
-    let joined = outer_rings(grown.as_slice().outline(&style(-0.5 * touch)));
-    if joined.is_empty() { parts } else { joined }
+    let settled = outer_rings(grown.as_slice().outline(&style(-0.5 * touch)));
+    if settled.is_empty() { parts } else { settled }
 }
 
 /// Counts how often edges of the polygons cross, up to [`policy::CROSSINGS`].
@@ -191,7 +190,12 @@ mod tests {
 
     #[test]
     fn shared_edges_corners_and_hairline_gaps_join() {
-        let areas = |rings: &[Ring]| united(rings, 1e-3).iter().map(ring_area).collect::<Vec<_>>();
+        let areas = |rings: &[Ring]| {
+            joined(filled_parts(rings, FillRule::NonZero), 1e-3)
+                .iter()
+                .map(ring_area)
+                .collect::<Vec<_>>()
+        };
         assert_eq!(areas(&[ring(0.0, 0.0, 1.0), ring(1.0, 0.0, 1.0)]), [2.0]);
         for apart in [1.0, 1.0005] {
             let corner = areas(&[ring(0.0, 0.0, 1.0), ring(apart, apart, 1.0)]);
@@ -203,7 +207,7 @@ mod tests {
 
     #[test]
     fn a_union_that_meets_in_a_corner_is_simple() {
-        let joined = united(&[ring(0.0, 0.0, 1.0), ring(1.0, 1.0, 1.0)], 1e-3);
-        assert!(simple(to_points(&joined[0])).is_ok());
+        let whole = joined(vec![ring(0.0, 0.0, 1.0), ring(1.0, 1.0, 1.0)], 1e-3);
+        assert!(simple(to_points(&whole[0])).is_ok());
     }
 }
