@@ -1,6 +1,27 @@
 //! Closed curves and where they come from: SVG drawings, silhouette images,
 //! point files and the built-in library; smoothing and normalisation.
 
+mod contour;
+pub mod library;
+mod load;
+mod normalize;
+mod points;
+mod repair;
+mod silhouette;
+mod simplify;
+mod smooth;
+mod svg;
+mod svg_guard;
+
+pub use load::{LoadError, LoadOptions, Shape, load};
+pub use normalize::{Similarity, normalized};
+pub use points::{PointsError, from_columns, from_json};
+pub use repair::repaired;
+pub use silhouette::{ImageError, from_image};
+pub use simplify::simplify;
+pub use smooth::{Smoothing, resample, smooth};
+pub use svg::{SvgError, from_svg};
+
 use crate::geometry::{self, Point};
 
 /// A closed, simple, counter-clockwise polygon.
@@ -37,6 +58,17 @@ pub enum OutlineError {
     /// The enclosed area vanishes beside the size of the outline.
     #[error("the outline encloses no area; draw a shape that is wider than a line")]
     NoArea,
+    /// More vertices than are read.
+    #[error("the outline has {count} points, more than {limit}; thin it out before loading")]
+    TooManyPoints {
+        /// Points that were found.
+        count: usize,
+        /// Most that are read.
+        limit: usize,
+    },
+    /// More crossings or detail than can be resolved in reasonable time.
+    #[error("the outline is too intricate to be a gear; trace it more coarsely")]
+    TooIntricate,
 }
 
 impl Outline {
@@ -80,5 +112,35 @@ impl Outline {
     #[must_use]
     pub fn map(&self, f: impl FnMut(&Point) -> Point) -> Self {
         Self { points: self.points.iter().map(f).collect() }
+    }
+
+    /// Enclosed area, in the square of the outline's unit; positive.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        geometry::area(&self.points)
+    }
+
+    /// Length of the boundary.
+    #[must_use]
+    pub fn perimeter(&self) -> f64 {
+        geometry::perimeter(&self.points)
+    }
+
+    /// Centre of area.
+    #[must_use]
+    pub fn centroid(&self) -> Point {
+        geometry::centroid(&self.points)
+    }
+
+    /// Lower left and upper right corner of the bounding box.
+    #[must_use]
+    pub fn bounds(&self) -> (Point, Point) {
+        geometry::bounds(&self.points)
+    }
+
+    /// Whether `p` lies inside; on the boundary the answer may go either way.
+    #[must_use]
+    pub fn contains(&self, p: Point) -> bool {
+        geometry::contains(&self.points, p)
     }
 }

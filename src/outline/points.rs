@@ -1,0 +1,213 @@
+//! Outlines from lists of points: text columns and JSON.
+
+use super::{Outline, OutlineError, repaired};
+use crate::geometry::Point;
+use crate::policy;
+
+/// Why a list of points could not be read.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PointsError {
+    /// The file is not UTF-8 text.
+    #[error("it is not plain text; save the points as UTF-8 text, one x and y on each line")]
+    NotText,
+    /// The file is longer than any outline.
+    #[error("it has {bytes} bytes, more than {limit}; thin out the points")]
+    TooLong {
+        /// Length of the text.
+        bytes: usize,
+        /// Most that is read.
+        limit: usize,
+    },
+    /// A line does not start with two finite numbers.
+    #[error(
+        "line {line} (`{text}`) is not two finite numbers; write x and y there or put # before it"
+    )]
+    BadLine {
+        /// Number of the line, from 1.
+        line: usize,
+        /// The line, shortened.
+        text: String,
+    },
+    /// The JSON text is malformed.
+    #[error(
+        "line {line}, column {column}: {reason}; write [[x, y], ...] or {{\"points\": [[x, y], ...]}}"
+    )]
+    BadJson {
+        /// Line of the mistake, from 1.
+        line: usize,
+        /// Column of the mistake, from 1.
+        column: usize,
+        /// What the JSON reader says.
+        reason: String,
+    },
+    /// The JSON text holds something else than a list of points.
+    #[error("no list of points; write [[x, y], ...] or {{\"points\": [[x, y], ...]}}")]
+    NoList,
+    /// An entry of the JSON list is not a point.
+    #[error("point {number} is not two numbers; write it as [x, y]")]
+    BadPoint {
+        /// Number of the point, from 1.
+        number: usize,
+    },
+    /// The points do not make an outline.
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
+}
+
+/// Reads columns of numbers: x and y on each line, closed implicitly.
+///
+/// Columns are separated by commas, semicolons, tabs or blanks; in lines with semicolons a
+/// comma is a decimal point. Empty lines and whatever follows `#` are skipped. A first line
+/// without any number is a header; if it names columns `x` and `y`, those are taken, otherwise
+/// the first two. A repeated last point is dropped.
+///
+/// # Errors
+/// See [`PointsError`]; messages name the line.
+pub fn from_columns(text: &[u8]) -> Result<Outline, PointsError> {
+    let mut points = Vec::new();
+    let mut columns = (0, 1);
+    let mut header_allowed = true;
+    for (index, line) in plain_text(text)?.lines().enumerate() {
+        let data = line.split('#').next().unwrap_or_default().trim();
+        if data.is_empty() {
+            continue;
+        }
+        let fields = split_fields(data);
+        let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
+        if header_allowed && numbers.iter().all(Option::is_none) {
+            let named =
+                |name| fields.iter().position(|f| f.trim_matches('"').eq_ignore_ascii_case(name));
+            columns = named("x").zip(named("y")).unwrap_or(columns);
+        } else {
+            let column = |i: usize| numbers.get(i).copied().flatten().filter(|v| v.is_finite());
+            let Some((x, y)) = column(columns.0).zip(column(columns.1)) else {
+                let text = data.chars().take(40).collect();
+                return Err(PointsError::BadLine { line: index + 1, text });
+            };
+            points.push(Point::new(x, y));
+        }
+        header_allowed = false;
+    }
+    Ok(repaired(points)?)
+}
+
+fn split_fields(line: &str) -> Vec<String> {
+    if line.contains(';') {
+        return line.split(';').map(|f| f.trim().replace(',', ".")).collect();
+    }
+    if line.contains(',') {
+        return line.split(',').map(|f| f.trim().to_owned()).collect();
+    }
+    line.split_whitespace().map(str::to_owned).collect()
+}
+
+/// Reads JSON: `[[x, y], ...]` or `{"points": [[x, y], ...]}`, closed implicitly.
+///
+/// A point may also be `{"x": x, "y": y}`. A repeated last point is dropped.
+///
+/// # Errors
+/// See [`PointsError`]; messages name the line or the point.
+pub fn from_json(text: &[u8]) -> Result<Outline, PointsError> {
+    use serde_json::Value;
+    let document: Value =
+        serde_json::from_str(plain_text(text)?).map_err(|e| PointsError::BadJson {
+            line: e.line(),
+            column: e.column(),
+            reason: e.to_string().split(" at line ").next().unwrap_or_default().to_owned(),
+        })?;
+    let list = document.as_array().or_else(|| document.get("points")?.as_array());
+    let coordinate = |p: &Value, i: usize, name: &str| p.get(i).or(p.get(name))?.as_f64();
+    let points = list.ok_or(PointsError::NoList)?.iter().enumerate().map(|(i, p)| {
+        let x = coordinate(p, 0, "x");
+        let point = x.zip(coordinate(p, 1, "y")).map(|(x, y)| Point::new(x, y));
+        point.ok_or(PointsError::BadPoint { number: i + 1 })
+    });
+    Ok(repaired(points.collect::<Result<_, _>>()?)?)
+}
+
+fn plain_text(bytes: &[u8]) -> Result<&str, PointsError> {
+    let limit = policy::POINT_FILE_BYTES;
+    if bytes.len() > limit {
+        return Err(PointsError::TooLong { bytes: bytes.len(), limit });
+    }
+    let text = std::str::from_utf8(bytes).map_err(|_| PointsError::NotText)?;
+    Ok(text.trim_start_matches('\u{feff}'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNIT_SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (1.5, 0.0), (1.5, 1.0), (0.0, 1.0)];
+
+    fn square() -> Vec<Point> {
+        UNIT_SQUARE.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    #[test]
+    fn every_way_of_writing_columns_gives_the_same_square() {
+        let ways = [
+            "0,0\n1.5,0\n1.5,1\n0,1\n0,0\n",
+            "x;y\n0;0\n1,5;0\n1,5;1\n0;1",
+            "# a square\n0 0\r\n1.5\t0 # corner\r\n\r\n1.5 1\r\n0 1\r\n",
+            "\u{feff}name, Y, X\n1, 0, 0\n2, 0, 1.5\n3, 1, 1.5\n4, 1, 0\n",
+        ];
+        for text in ways {
+            let outline = from_columns(text.as_bytes()).unwrap();
+            assert_eq!(outline.points(), square(), "{text}");
+        }
+    }
+
+    #[test]
+    fn every_way_of_writing_json_gives_the_same_square() {
+        let ways = [
+            "[[0,0],[1.5,0],[1.5,1],[0,1],[0,0]]",
+            r#"{"name": "square", "points": [[0,0],[1.5,0],[1.5,1],[0,1]]}"#,
+            r#"[{"x":0,"y":0},{"x":1.5,"y":0},{"x":1.5,"y":1},{"x":0,"y":1}]"#,
+        ];
+        for text in ways {
+            assert_eq!(from_json(text.as_bytes()).unwrap().points(), square(), "{text}");
+        }
+    }
+
+    #[test]
+    fn mistakes_name_their_line() {
+        let bad = |text: &str| match from_columns(text.as_bytes()) {
+            Err(PointsError::BadLine { line, .. }) => line,
+            other => panic!("{text}: {other:?}"),
+        };
+        assert_eq!(bad("0,0\n1,0\nNaN,1\n0,1"), 3);
+        assert_eq!(bad("# c\n\n0,0\n1,inf\n"), 4);
+        assert_eq!(bad("x,y\n0,0\nhello\n"), 3);
+        assert_eq!(bad("x,y\nx,y\n0,0\n"), 2);
+        assert_eq!(bad("0 0\n1\n2 2\n"), 2);
+    }
+
+    #[test]
+    fn too_few_points_and_crossings_are_refused() {
+        let of = |text: &str| from_columns(text.as_bytes()).unwrap_err();
+        let few = |count| PointsError::Outline(OutlineError::TooFewPoints { count });
+        assert_eq!(of("0,0\n1,1\n"), few(2));
+        assert_eq!(of("0,0\n1,1\n0,0"), few(2));
+        assert_eq!(of(""), few(0));
+        assert_eq!(of("0,0\n1,1\n2,2\n"), PointsError::Outline(OutlineError::NoArea));
+        let crossing = PointsError::Outline(OutlineError::SelfCrossing { x: 1.0, y: 1.0 });
+        assert_eq!(of("0,0\n2,2\n2,0\n0,2\n"), crossing);
+        assert_eq!(from_columns(b"\xff\xfe1,2").unwrap_err(), PointsError::NotText);
+        let long = "1,2\n".repeat(policy::POINT_FILE_BYTES / 4 + 1);
+        assert!(matches!(of(&long), PointsError::TooLong { .. }));
+        let many: String = (0..=policy::OUTLINE_VERTICES).map(|i| format!("{i},0\n")).collect();
+        assert!(matches!(of(&many), PointsError::Outline(OutlineError::TooManyPoints { .. })));
+    }
+
+    #[test]
+    fn bad_json_says_where() {
+        let of = |text: &str| from_json(text.as_bytes()).unwrap_err();
+        assert!(matches!(of("[[0,0],\n[NaN,1]]"), PointsError::BadJson { line: 2, .. }));
+        assert!(matches!(of("[[0,0],[1e999,1]]"), PointsError::BadJson { line: 1, .. }));
+        assert_eq!(of("[[0,0],[1,null],[1,1]]"), PointsError::BadPoint { number: 2 });
+        assert_eq!(of("[[0,0],[1],[1,1]]"), PointsError::BadPoint { number: 2 });
+        assert_eq!(of("{\"a\": 1}"), PointsError::NoList);
+        assert!(matches!(of(&"[".repeat(100_000)), PointsError::BadJson { .. }));
+    }
+}

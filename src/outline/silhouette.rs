@@ -1,0 +1,207 @@
+//! Outlines from silhouette images.
+
+use super::contour::{Field, largest_contour};
+use super::{Outline, OutlineError, repaired};
+use crate::geometry::Point;
+use crate::policy;
+use image::{DynamicImage, ImageDecoder, ImageError as DecodeError, ImageReader};
+use std::io::Cursor;
+
+/// Why an image gives no outline.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ImageError {
+    /// Not a PNG, JPEG, TIFF or BMP image.
+    #[error("it is not a PNG, JPEG, TIFF or BMP image; convert it to PNG")]
+    NotAnImage,
+    /// The image file is damaged or of an unknown kind.
+    #[error("the image cannot be decoded ({reason}); save it again as PNG")]
+    Damaged {
+        /// What the decoder says.
+        reason: String,
+    },
+    /// More pixels than are decoded.
+    #[error("the image has {width} x {height} pixels, more than {limit} in all; scale it down")]
+    TooLarge {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Most pixels that are decoded.
+        limit: u64,
+    },
+    /// Too few pixels for a shape.
+    #[error("the image has {width} x {height} pixels; use one of at least {side} on each side")]
+    TooSmall {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Fewest pixels on a side.
+        side: u32,
+    },
+    /// All pixels have nearly one brightness.
+    #[error("the image is all of one colour; use a dark shape on a light ground or the reverse")]
+    OneColour,
+    /// Nothing lies on the far side of the threshold.
+    #[error("threshold {threshold} leaves no shape in the image; try another or leave it out")]
+    NoShape {
+        /// The threshold used.
+        threshold: u8,
+    },
+    /// The contour does not make an outline.
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
+}
+
+/// Reads the largest silhouette of a PNG, JPEG, TIFF or BMP image, with its holes filled.
+///
+/// What separates shape from ground is transparency if it varies across the middle, otherwise
+/// brightness: `threshold` (pixels darker than it on one side) or, without one, Otsu's. The
+/// ground is what most of the image's border is. After a blur of [`policy::IMAGE_BLUR`] pixels
+/// the contour is interpolated between pixel centres, so it has no pixel stairs; a shape cut
+/// off by the border is closed along it. The unit is one pixel, y upwards from the lower edge.
+/// Images above [`policy::IMAGE_PIXELS_TRACED`] are averaged down first.
+///
+/// # Errors
+/// See [`ImageError`]. The size is checked from the header, before anything is decoded.
+pub fn from_image(bytes: &[u8], threshold: Option<u8>) -> Result<Outline, ImageError> {
+    let (grey, from_alpha) = samples(&decoded(bytes)?);
+    let (dark, light) = grey.range();
+    if light.saturating_sub(dark) < policy::IMAGE_CONTRAST {
+        return Err(ImageError::OneColour);
+    }
+    let level = match threshold {
+        Some(value) => f64::from(value) - 0.5,
+        None if from_alpha => 127.5,
+        None => otsu(&grey.histogram()),
+    };
+    let mut field = grey.averaged(level);
+    if field.mostly_positive_border() {
+        field.negate();
+    }
+    let scale = f64::from(grey.width) / field.covered_width();
+    let contour = largest_contour(&field, policy::IMAGE_BLUR)
+        .ok_or(ImageError::NoShape { threshold: level.ceil().clamp(0.0, 255.0) as u8 })?;
+    let height = f64::from(grey.height);
+    let points = contour.iter().map(|p| Point::new(scale * p.x, height - scale * p.y)).collect();
+    Ok(repaired(points)?)
+}
+
+fn decoded(bytes: &[u8]) -> Result<DynamicImage, ImageError> {
+    let damaged = |error: DecodeError| ImageError::Damaged { reason: error.to_string() };
+    let open = || {
+        let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().ok()?;
+        reader.format().map(|_| reader)
+    };
+    let (width, height) = match open().ok_or(ImageError::NotAnImage)?.into_dimensions() {
+        Err(DecodeError::Unsupported(_)) => return Err(ImageError::NotAnImage),
+        dimensions => dimensions.map_err(damaged)?,
+    };
+    if u64::from(width) * u64::from(height) > policy::IMAGE_PIXELS {
+        return Err(ImageError::TooLarge { width, height, limit: policy::IMAGE_PIXELS });
+    }
+    if width.min(height) < policy::IMAGE_SIDE {
+        return Err(ImageError::TooSmall { width, height, side: policy::IMAGE_SIDE });
+    }
+    let mut reader = open().ok_or(ImageError::NotAnImage)?;
+    let mut limits = image::Limits::default();
+    limits.max_alloc = Some(policy::IMAGE_ALLOCATION);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(damaged)?;
+    let orientation = decoder.orientation();
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+    if let Ok(orientation) = orientation {
+        picture.apply_orientation(orientation);
+    }
+    Ok(picture)
+}
+
+/// One byte a pixel, low where the silhouette usually is.
+struct Samples {
+    values: Vec<u8>,
+    width: u32,
+    height: u32,
+}
+
+/// The picture's opacity (reversed, so that opaque is low) if it varies, else its brightness.
+fn samples(picture: &DynamicImage) -> (Samples, bool) {
+    let (width, height) = (picture.width(), picture.height());
+    if picture.color().has_alpha() {
+        let both = picture.to_luma_alpha8();
+        let clear = both.pixels().any(|p| p.0[1] < 128);
+        let opaque = both.pixels().any(|p| p.0[1] >= 128);
+        if clear && opaque {
+            let values = both.pixels().map(|p| 255 - p.0[1]).collect();
+            return (Samples { values, width, height }, true);
+        }
+    }
+    (Samples { values: picture.to_luma8().into_raw(), width, height }, false)
+}
+
+impl Samples {
+    fn range(&self) -> (u8, u8) {
+        self.values.iter().fold((255, 0), |(low, high), &v| (low.min(v), high.max(v)))
+    }
+
+    fn histogram(&self) -> [u64; 256] {
+        let mut counts = [0; 256];
+        for &value in &self.values {
+            counts[usize::from(value)] += 1;
+        }
+        counts
+    }
+
+    /// `level` minus brightness, averaged over squares so that at most
+    /// [`policy::IMAGE_PIXELS_TRACED`] remain; positive where dark.
+    fn averaged(&self, level: f64) -> Field {
+        let pixels = u64::from(self.width) * u64::from(self.height);
+        let side = (pixels as f64 / policy::IMAGE_PIXELS_TRACED as f64).sqrt().ceil().max(1.0);
+        let (side, width, height) = (side as usize, self.width as usize, self.height as usize);
+        let (columns, rows) = (width.div_ceil(side), height.div_ceil(side));
+        let mut values = Vec::with_capacity(columns * rows);
+        for row in 0..rows {
+            for column in 0..columns {
+                let (mut sum, mut count) = (0_u32, 0_u32);
+                for y in row * side..((row + 1) * side).min(height) {
+                    let start = y * width + column * side;
+                    let end = y * width + ((column + 1) * side).min(width);
+                    sum += self.values[start..end].iter().map(|&v| u32::from(v)).sum::<u32>();
+                    count += (end - start) as u32;
+                }
+                values.push((level - f64::from(sum) / f64::from(count)) as f32);
+            }
+        }
+        Field::new(values, columns, width as f64 / side as f64)
+    }
+}
+
+/// The brightness that separates the two classes of a histogram best (Otsu 1979): their
+/// variance about their own means is least. Halfway between the classes where values between
+/// them do not occur.
+fn otsu(histogram: &[u64; 256]) -> f64 {
+    let total: u64 = histogram.iter().sum();
+    let weighted = |(value, &count): (usize, &u64)| value as f64 * count as f64;
+    let sum: f64 = histogram.iter().enumerate().map(weighted).sum();
+    let (mut below, mut sum_below) = (0_u64, 0.0);
+    let (mut best, mut first, mut last) = (-1.0, 0, 0);
+    for value in 0..255 {
+        below += histogram[value];
+        sum_below += weighted((value, &histogram[value]));
+        let above = total - below;
+        if below == 0 || above == 0 {
+            continue;
+        }
+        let apart = sum_below / below as f64 - (sum - sum_below) / above as f64;
+        let between = below as f64 * above as f64 * apart * apart;
+        if between > best {
+            (best, first, last) = (between, value, value);
+        } else if between == best {
+            last = value;
+        }
+    }
+    0.5 * (first + last) as f64 + 0.5
+}
+
+#[cfg(test)]
+#[path = "silhouette_tests.rs"]
+mod tests;

@@ -1,0 +1,162 @@
+use super::*;
+use image::{GrayImage, ImageFormat, Luma, LumaA, Rgb, RgbImage};
+use std::f64::consts::PI;
+
+fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture.into().write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
+}
+
+/// A disc of radius 40 about (60.3, 50.7) from the lower left corner, without grey edges.
+fn disc(shape: u8, ground: u8) -> GrayImage {
+    GrayImage::from_fn(120, 100, |x, y| {
+        let (dx, dy) = (f64::from(x) + 0.5 - 60.3, 99.5 - f64::from(y) - 50.7);
+        Luma([if dx.hypot(dy) < 40.0 { shape } else { ground }])
+    })
+}
+
+fn assert_is_the_disc(outline: &Outline, tolerance: f64) {
+    let center = Point::new(60.3, 50.7);
+    assert!((outline.centroid() - center).norm() < tolerance, "{}", outline.centroid());
+    let off = outline.points().iter().map(|p| ((p - center).norm() - 40.0).abs());
+    let worst = off.fold(0.0, f64::max);
+    assert!(worst < 2.0 * tolerance, "{worst}");
+    assert!((outline.area() / (1600.0 * PI) - 1.0).abs() < 0.01, "{}", outline.area());
+}
+
+#[test]
+fn a_black_and_white_disc_is_found_without_stairs() {
+    for (shape, ground) in [(0, 255), (255, 0), (90, 140), (200, 20)] {
+        let outline = from_image(&encoded(disc(shape, ground), ImageFormat::Png), None).unwrap();
+        assert_is_the_disc(&outline, 0.2);
+        let points = outline.points();
+        // Stairs would turn by up to 90 degrees; the disc turns by 1.4 degrees a pixel.
+        let turn = |i: usize| {
+            let at = |k: usize| points[(i + k) % points.len()];
+            let (u, v) = (at(6) - at(0), at(12) - at(6));
+            crate::geometry::cross(u, v).atan2(u.dot(&v))
+        };
+        let sharpest = (0..points.len()).map(turn).fold(0.0, f64::max);
+        assert!(sharpest < 0.35, "{sharpest}");
+    }
+}
+
+#[test]
+fn every_format_and_an_alpha_channel_give_the_disc() {
+    use ImageFormat::{Bmp, Jpeg, Png, Tiff};
+    for format in [Png, Jpeg, Tiff, Bmp] {
+        let colour = DynamicImage::from(disc(10, 240)).to_rgb8();
+        assert_is_the_disc(&from_image(&encoded(colour, format), None).unwrap(), 0.3);
+    }
+    let mask = disc(255, 0);
+    let veiled =
+        image::GrayAlphaImage::from_fn(120, 100, |x, y| LumaA([77, mask.get_pixel(x, y)[0]]));
+    assert_is_the_disc(&from_image(&encoded(veiled, Png), None).unwrap(), 0.2);
+    let opaque =
+        image::GrayAlphaImage::from_fn(120, 100, |x, y| LumaA([mask.get_pixel(x, y)[0], 255]));
+    assert_is_the_disc(&from_image(&encoded(opaque, Png), None).unwrap(), 0.2);
+}
+
+#[test]
+fn holes_are_filled_and_specks_left_out() {
+    let mut picture = disc(0, 255);
+    for (x, y) in (50..70).flat_map(|x| (40..60).map(move |y| (x, y))) {
+        picture.put_pixel(x, y, Luma([255]));
+    }
+    for (x, y) in (2..10).flat_map(|x| (2..10).map(move |y| (x, y))) {
+        picture.put_pixel(x, y, Luma([0]));
+    }
+    assert_is_the_disc(&from_image(&encoded(picture, ImageFormat::Png), None).unwrap(), 0.2);
+}
+
+#[test]
+fn the_threshold_moves_the_contour_down_a_ramp() {
+    // Brightness 2 x on the left half, a light ground: the contour lies where 2 x = threshold.
+    let ramp = GrayImage::from_fn(160, 60, |x, y| {
+        let inside = (10..50).contains(&y) && (10..120).contains(&x);
+        Luma([if inside { 2 * x as u8 } else { 255 }])
+    });
+    let right = |threshold| {
+        let outline =
+            from_image(&encoded(ramp.clone(), ImageFormat::Png), Some(threshold)).unwrap();
+        outline.bounds().1.x
+    };
+    for threshold in [100, 160] {
+        let expected = 0.5 * (f64::from(threshold) - 0.5) + 0.5;
+        assert!((right(threshold) - expected).abs() < 0.1, "{}", right(threshold));
+    }
+    let error = from_image(&encoded(ramp, ImageFormat::Png), Some(1)).unwrap_err();
+    assert_eq!(error, ImageError::NoShape { threshold: 1 });
+}
+
+#[test]
+fn a_shape_cut_off_by_the_border_is_closed_along_it() {
+    let half = GrayImage::from_fn(100, 100, |x, y| {
+        Luma([if x < 30 && (20..80).contains(&y) { 0 } else { 255 }])
+    });
+    let outline = from_image(&encoded(half, ImageFormat::Png), None).unwrap();
+    let (low, high) = outline.bounds();
+    assert!(low.x.abs() < 0.3 && (high.x - 30.0).abs() < 0.3, "{low} {high}");
+    assert!((outline.area() - 1800.0).abs() < 10.0);
+}
+
+#[test]
+fn large_images_are_averaged_down_in_the_same_units() {
+    let big = GrayImage::from_fn(3001, 2003, |x, y| {
+        let (dx, dy) = (f64::from(x) + 0.5 - 1400.0, 2002.5 - f64::from(y) - 900.0);
+        Luma([if dx.hypot(dy) < 800.0 { 0 } else { 255 }])
+    });
+    let outline = from_image(&encoded(big, ImageFormat::Png), None).unwrap();
+    let center = Point::new(1400.0, 900.0);
+    let worst = outline.points().iter().map(|p| ((p - center).norm() - 800.0).abs());
+    let worst = worst.fold(0.0, f64::max);
+    assert!(worst < 0.8, "{worst}");
+}
+
+#[test]
+fn images_without_a_shape_are_refused() {
+    let of = |picture: RgbImage| from_image(&encoded(picture, ImageFormat::Png), None).unwrap_err();
+    let plain = |w, h, v| RgbImage::from_pixel(w, h, Rgb([v; 3]));
+    assert_eq!(
+        of(plain(1, 1, 0)),
+        ImageError::TooSmall { width: 1, height: 1, side: policy::IMAGE_SIDE }
+    );
+    assert_eq!(of(plain(300, 200, 255)), ImageError::OneColour);
+    assert_eq!(of(plain(300, 200, 0)), ImageError::OneColour);
+    let faint = RgbImage::from_fn(64, 64, |x, y| Rgb([250 + ((x * 7 + y * 3) % 6) as u8; 3]));
+    assert_eq!(of(faint), ImageError::OneColour);
+}
+
+#[test]
+fn other_and_damaged_files_are_refused() {
+    for bytes in [&b""[..], b"hello", b"GIF89a..", b"\x00\x00\x00"] {
+        assert_eq!(from_image(bytes, None).unwrap_err(), ImageError::NotAnImage);
+    }
+    let whole = encoded(disc(0, 255), ImageFormat::Png);
+    for length in [9, 20, 40, whole.len() / 2] {
+        let error = from_image(&whole[..length], None).unwrap_err();
+        assert!(matches!(error, ImageError::Damaged { .. }), "{length}: {error:?}");
+    }
+}
+
+#[test]
+fn the_size_is_refused_before_decoding() {
+    // Headers alone, without pixels: anything that decoded would fail differently.
+    let mut png = encoded(GrayImage::new(16, 16), ImageFormat::Png);
+    png[16..20].copy_from_slice(&20_000_u32.to_be_bytes());
+    png[20..24].copy_from_slice(&20_000_u32.to_be_bytes());
+    let crc = crc32(&png[12..29]);
+    png[29..33].copy_from_slice(&crc.to_be_bytes());
+    let error = from_image(&png, None).unwrap_err();
+    let expected =
+        ImageError::TooLarge { width: 20_000, height: 20_000, limit: policy::IMAGE_PIXELS };
+    assert_eq!(error, expected);
+}
+
+/// The checksum of PNG chunks.
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |c, _| (c >> 1) ^ (0xedb8_8320 & (c & 1).wrapping_neg()))
+    })
+}

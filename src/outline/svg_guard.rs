@@ -1,0 +1,134 @@
+//! What is checked before an SVG is expanded: its size, its nesting and where its `use`
+//! elements lead. A kilobyte of nested `use` can ask for a billion copies.
+
+use super::SvgError;
+use crate::policy;
+use std::collections::HashMap;
+use usvg::roxmltree::{Document, Error, Node, NodeId, ParsingOptions};
+
+/// Style forced on every drawing. It switches off what is not part of a silhouette and can
+/// multiply in ways that the count below does not see: markers, masks, filters, clip paths,
+/// and paint inside of patterns.
+pub(super) const STYLE: &str = "\
+    * { marker: none !important; mask: none !important; filter: none !important; \
+        clip-path: none !important; stroke: none !important } \
+    pattern * { fill: black !important } pattern use { display: none !important }";
+
+/// Parses the XML and refuses drawings whose expansion would be too large, deep or endless.
+pub(super) fn checked(text: &[u8]) -> Result<Document<'_>, SvgError> {
+    if text.len() > policy::SVG_BYTES {
+        return Err(SvgError::TooLong { bytes: text.len(), limit: policy::SVG_BYTES });
+    }
+    let text = std::str::from_utf8(text).map_err(|_| SvgError::NotText)?;
+    let text = text.trim_start_matches('\u{feff}');
+    let too_many = SvgError::TooManyElements { limit: policy::SVG_ELEMENTS };
+    // Text and attribute-free nodes count too, so leave some room above the elements.
+    let limit = u32::try_from(4 * policy::SVG_ELEMENTS).unwrap_or(u32::MAX);
+    let options = ParsingOptions { allow_dtd: true, nodes_limit: limit, entity_resolver: None };
+    let document = Document::parse_with_options(text, options).map_err(|error| match error {
+        Error::NodesLimitReached => too_many.clone(),
+        other => SvgError::NotXml { reason: other.to_string() },
+    })?;
+    let root = document.root_element();
+    if root.tag_name().name() != "svg" {
+        return Err(SvgError::NotSvg { root: root.tag_name().name().to_owned() });
+    }
+    let ids = document.descendants().rev().filter_map(|n| Some((n.attribute("id")?, n))).collect();
+    let mut counter = Counter { ids, known: HashMap::new() };
+    let size = counter.expanded(root, 0)?;
+    let rules = style_rules(&document);
+    if size.elements > policy::SVG_ELEMENTS
+        || size.path_bytes > policy::SVG_PATH_BYTES
+        || size.elements.saturating_mul(rules) > policy::SVG_STYLE_TESTS
+    {
+        return Err(too_many);
+    }
+    Ok(document)
+}
+
+fn style_rules(document: &Document) -> u64 {
+    let sheets = document.descendants().filter(|n| n.tag_name().name() == "style");
+    let rules: usize = sheets.filter_map(|n| n.text()).map(|t| t.matches(['{', ',']).count()).sum();
+    rules as u64
+}
+
+#[derive(Clone, Copy, Default)]
+struct Expansion {
+    elements: u64,
+    path_bytes: u64,
+    depth: u32,
+}
+
+enum State {
+    Open,
+    Done(Expansion),
+}
+
+struct Counter<'a, 'input> {
+    ids: HashMap<&'a str, Node<'a, 'input>>,
+    known: HashMap<NodeId, State>,
+}
+
+impl<'a, 'input> Counter<'a, 'input> {
+    /// Counts what `node` becomes with every `use` expanded; each element is visited once.
+    fn expanded(&mut self, node: Node<'a, 'input>, above: u32) -> Result<Expansion, SvgError> {
+        let too_deep = SvgError::TooDeep { limit: policy::SVG_DEPTH };
+        match self.known.get(&node.id()) {
+            Some(State::Done(known)) if above + known.depth > policy::SVG_DEPTH => {
+                return Err(too_deep);
+            }
+            Some(State::Done(known)) => return Ok(*known),
+            Some(State::Open) => {
+                let id = node.attribute("id").unwrap_or_default().chars().take(40).collect();
+                return Err(SvgError::Circular { id });
+            }
+            None if above > policy::SVG_DEPTH => return Err(too_deep),
+            None => {}
+        }
+        self.known.insert(node.id(), State::Open);
+        let data = [node.attribute("d"), node.attribute("points")];
+        let path_bytes: usize = data.into_iter().flatten().map(str::len).sum();
+        let mut total = Expansion { elements: 1, path_bytes: path_bytes as u64, depth: 0 };
+        let target = self.use_target(node);
+        for child in node.children().filter(Node::is_element).chain(target) {
+            let part = self.expanded(child, above + 1)?;
+            total.elements = total.elements.saturating_add(part.elements);
+            total.path_bytes = total.path_bytes.saturating_add(part.path_bytes);
+            total.depth = total.depth.max(part.depth + 1);
+        }
+        self.known.insert(node.id(), State::Done(total));
+        Ok(total)
+    }
+
+    fn use_target(&self, node: Node<'a, 'input>) -> Option<Node<'a, 'input>> {
+        if node.tag_name().name() != "use" {
+            return None;
+        }
+        self.ids.get(reference(node)?.trim().strip_prefix('#')?).copied()
+    }
+}
+
+fn reference<'a>(node: Node<'a, '_>) -> Option<&'a str> {
+    node.attribute("href").or_else(|| node.attribute(("http://www.w3.org/1999/xlink", "href")))
+}
+
+/// The reason to tell when no visible filled path was found.
+pub(super) fn why_nothing_is_filled(document: &Document) -> SvgError {
+    const SHAPES: [&str; 7] = ["path", "rect", "circle", "ellipse", "polygon", "polyline", "line"];
+    let has = |test: &dyn Fn(Node) -> bool| document.descendants().any(test);
+    let named = |n: Node, names: &[&str]| names.contains(&n.tag_name().name());
+    if has(&|n| named(n, &SHAPES)) {
+        SvgError::NothingFilled
+    } else if has(&|n| named(n, &["text"])) {
+        SvgError::OnlyText
+    } else if has(&|n| {
+        named(n, &["use", "image"])
+            && reference(n).is_some_and(|r| !r.trim().starts_with(['#']) && !r.starts_with("data:"))
+    }) {
+        SvgError::OnlyReferences
+    } else if has(&|n| named(n, &["image"])) {
+        SvgError::OnlyImages
+    } else {
+        SvgError::Empty
+    }
+}

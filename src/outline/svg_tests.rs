@@ -1,0 +1,234 @@
+use super::*;
+use std::f64::consts::PI;
+
+const TOLERANCE: f64 = policy::FLATTEN_TOLERANCE;
+
+fn drawing(body: &str) -> String {
+    format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"
+        viewBox="0 0 100 100">{body}</svg>"#
+    )
+}
+
+fn read(body: &str) -> Result<Outline, SvgError> {
+    from_svg(drawing(body).as_bytes(), TOLERANCE)
+}
+
+fn area(body: &str) -> f64 {
+    read(body).unwrap().area()
+}
+
+fn near(a: f64, b: f64, relative: f64) {
+    assert!((a - b).abs() <= relative * b.abs(), "{a} is not {b}");
+}
+
+#[test]
+fn a_circle_is_flattened_to_the_tolerance() {
+    let body = r#"<circle cx="50" cy="50" r="40"/>"#;
+    for tolerance in [1e-3, 1e-4, 1e-5] {
+        let outline = from_svg(drawing(body).as_bytes(), tolerance).unwrap();
+        let worst = outline.points().iter().zip(outline.points().iter().cycle().skip(1)).fold(
+            0.0,
+            |worst: f64, (a, b)| {
+                let middle = nalgebra::center(a, b) - Point::new(50.0, 50.0);
+                worst.max((middle.norm() - 40.0).abs())
+            },
+        );
+        // Four cubic arcs differ from a circle by 2.7e-4 of the radius themselves.
+        assert!(worst < tolerance * 80.0 * 2_f64.sqrt() + 2.8e-4 * 40.0, "{tolerance}: {worst}");
+    }
+    near(area(body), PI * 1600.0, 1e-3);
+}
+
+#[test]
+fn y_points_upwards() {
+    let outline = read(r#"<path d="M10 90 L90 90 L50 10 Z"/>"#).unwrap();
+    let top = outline.points().iter().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
+    assert_eq!(*top, Point::new(50.0, 90.0));
+    assert!(geometry::signed_area(outline.points()) > 0.0);
+}
+
+#[test]
+fn the_largest_filled_path_wins_and_strokes_do_not_count() {
+    let body = r#"<rect x="1" y="1" width="97" height="97" fill="none" stroke="red"/>
+        <rect x="10" y="10" width="5" height="5"/>
+        <rect x="30" y="30" width="20" height="10" stroke="black" stroke-width="9"/>"#;
+    near(area(body), 200.0, 1e-6);
+}
+
+#[test]
+fn transforms_groups_use_and_styles_apply() {
+    let body = r##"<style>.hidden { display: none }</style>
+        <defs><g id="bar"><rect width="10" height="20"/></g></defs>
+        <rect class="hidden" width="90" height="90"/>
+        <g transform="translate(20 10) scale(2)"><use xlink:href="#bar" x="5" transform="rotate(30)"/></g>
+        <use href="#bar" style="visibility: hidden" transform="scale(4)"/>"##;
+    near(area(body), 800.0, 1e-5);
+}
+
+#[test]
+fn touching_paths_are_united_and_holes_dropped() {
+    near(area(r#"<path d="M10 10h20v20h-20z"/><path d="M30 15h10v10h-10z"/>"#), 500.0, 1e-6);
+    let overlapping = r#"<circle cx="30" cy="50" r="20"/><circle cx="60" cy="50" r="20"/>"#;
+    // Two discs less their lens: 2 r^2 acos(d/2r) - d/2 sqrt(4r^2 - d^2).
+    let lens = 800.0 * 0.75_f64.acos() - 15.0 * (1600.0_f64 - 900.0).sqrt();
+    near(area(overlapping), 2.0 * PI * 400.0 - lens, 1e-3);
+    let ring = r#"<path fill-rule="evenodd" d="M10 10h40v40h-40z M20 20h20v20h-20z"/>"#;
+    near(area(ring), 1600.0, 1e-6);
+    let curves = r#"<path d="M20 20 C40 0 60 60 80 20 L80 80 L20 80Z"/>
+        <path d="M80 20 C60 60 40 0 20 20 L20 5 L80 5Z"/>"#;
+    near(area(curves), 4500.0, 1e-4);
+    let tangent = r#"<circle cx="30" cy="50" r="20"/><circle cx="70" cy="50" r="20"/>"#;
+    near(area(tangent), 2.0 * PI * 400.0, 2e-3);
+}
+
+#[test]
+fn a_background_behind_the_shape_is_left_out() {
+    let body = r#"<rect width="100" height="100" fill="white"/><rect x="20" y="20" width="30" height="30"/>"#;
+    near(area(body), 900.0, 1e-6);
+    near(area(r#"<rect width="100" height="100"/>"#), 10_000.0, 1e-6);
+}
+
+#[test]
+fn nearly_closed_paths_are_closed_and_open_ones_refused() {
+    near(area(r#"<path d="M10 10 L90 10 L90 90 L10 90 L10 11"/>"#), 6400.0, 1e-6);
+    let open = SvgError::OpenPath { start_x: 10.0, start_y: 10.0, end_x: 90.0, end_y: 90.0 };
+    assert_eq!(read(r#"<path d="M10 10 L90 10 L90 90"/>"#).unwrap_err(), open);
+    let stroked = r#"<path d="M10 10 L90 10 L90 90" fill="none" stroke="black"/>"#;
+    assert_eq!(read(stroked).unwrap_err(), SvgError::NothingFilled);
+    let both = r#"<path d="M10 10 L90 10 L90 90"/><rect width="5" height="5"/>"#;
+    near(area(both), 25.0, 1e-6);
+}
+
+#[test]
+fn drawings_without_a_filled_path_say_why() {
+    assert_eq!(read("").unwrap_err(), SvgError::Empty);
+    assert_eq!(read("<g/>").unwrap_err(), SvgError::Empty);
+    assert_eq!(read("<text x='9' y='9'>gear</text>").unwrap_err(), SvgError::OnlyText);
+    let image = "<image width='9' height='9' href='data:image/png;base64,AAAA'/>";
+    assert_eq!(read(image).unwrap_err(), SvgError::OnlyImages);
+    for reference in ["<image width='9' height='9' href='/etc/hostname'/>", "<use href='a.svg#b'/>"]
+    {
+        assert_eq!(read(reference).unwrap_err(), SvgError::OnlyReferences);
+    }
+    assert_eq!(read("<path d='M1 1 L9 9Z'/>").unwrap_err(), OutlineError::NoArea.into());
+}
+
+#[test]
+fn references_to_files_are_never_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let big = folder.path().join("big.svg");
+    std::fs::write(&big, drawing(r#"<rect width="90" height="90"/>"#)).unwrap();
+    let body = format!(
+        r#"<image width="90" height="90" href="{0}"/><use href="{0}#a"/><rect width="3" height="3"/>"#,
+        big.display()
+    );
+    near(area(&body), 9.0, 1e-6);
+    let entity = format!(
+        r#"<!DOCTYPE svg [<!ENTITY e SYSTEM "{}">]>{}"#,
+        big.display(),
+        drawing("&e;<rect width='3' height='3'/>")
+    );
+    if let Ok(outline) = from_svg(entity.as_bytes(), TOLERANCE) {
+        near(outline.area(), 9.0, 1e-6);
+    }
+}
+
+#[test]
+fn malformed_text_is_refused() {
+    let of = |text: &[u8]| from_svg(text, TOLERANCE).unwrap_err();
+    assert!(matches!(of(b""), SvgError::NotXml { .. }));
+    assert!(matches!(of(b"<svg><g></svg>"), SvgError::NotXml { .. }));
+    assert_eq!(of(b"<html></html>"), SvgError::NotSvg { root: "html".into() });
+    assert_eq!(of(b"\xff\xfe<\x00s\x00"), SvgError::NotText);
+    let flat = r#"<svg xmlns="http://www.w3.org/2000/svg" width="0" height="10"><rect width="1" height="1"/></svg>"#;
+    assert_eq!(of(flat.as_bytes()), SvgError::NoSize);
+    let long = vec![b' '; policy::SVG_BYTES + 1];
+    assert!(matches!(of(&long), SvgError::TooLong { .. }));
+}
+
+#[test]
+fn a_self_crossing_path_is_refused_and_a_pen_slip_repaired() {
+    let bow_tie = read(r#"<path d="M10 10 L90 90 L90 10 L10 90 Z"/>"#).unwrap_err();
+    assert_eq!(bow_tie, OutlineError::SelfCrossing { x: 50.0, y: 50.0 }.into());
+    let slip = r#"<path d="M10 10 H90 V91 L89.5 91 L90.5 90 H10 Z"/>"#;
+    near(area(slip), 6400.0, 1e-3);
+}
+
+/// `levels` groups, each using the previous one ten times.
+fn laughs(levels: usize) -> String {
+    let mut body = String::from(r#"<defs><rect id="l0" width="9" height="9"/>"#);
+    for level in 1..=levels {
+        let line = format!(r##"<use href="#l{}"/>"##, level - 1).repeat(10);
+        body.push_str(&format!(r#"<g id="l{level}">{line}</g>"#));
+    }
+    body + &format!(r##"</defs><use href="#l{levels}"/>"##)
+}
+
+fn refused_quickly(body: &str) -> SvgError {
+    let start = std::time::Instant::now();
+    let error = read(body).unwrap_err();
+    assert!(start.elapsed().as_secs_f64() < 2.0);
+    error
+}
+
+#[test]
+fn nested_use_is_counted_before_it_is_expanded() {
+    near(area(&laughs(2)), 81.0, 1e-6);
+    for levels in [6, 9, 40] {
+        let error = refused_quickly(&laughs(levels));
+        assert_eq!(error, SvgError::TooManyElements { limit: policy::SVG_ELEMENTS });
+    }
+    let chain: String =
+        (0..100_000).map(|i| format!(r##"<g id="c{i}"><use href="#c{}"/></g>"##, i + 1)).collect();
+    assert!(matches!(refused_quickly(&chain), SvgError::TooDeep { .. }));
+    let nested =
+        format!("{}{}", "<g><use href='#x'>".repeat(500_000), "</use></g>".repeat(500_000));
+    assert!(matches!(
+        refused_quickly(&nested),
+        SvgError::TooManyElements { .. } | SvgError::TooDeep { .. }
+    ));
+    let flat = "<use href='#a'/>".repeat(1_000_000);
+    assert!(matches!(
+        refused_quickly(&flat),
+        SvgError::TooManyElements { .. } | SvgError::TooLong { .. }
+    ));
+}
+
+#[test]
+fn circles_of_use_and_deep_groups_are_refused() {
+    let circle = r##"<g id="a"><use href="#b"/></g><g id="b"><use href="#c"/></g><g id="c"><use href="#a"/></g>"##;
+    assert!(matches!(refused_quickly(circle), SvgError::Circular { .. }));
+    let deep =
+        |n: usize| format!("{}<rect width='9' height='9'/>{}", "<g>".repeat(n), "</g>".repeat(n));
+    assert!(matches!(refused_quickly(&deep(50_000)), SvgError::TooDeep { .. }));
+    near(area(&deep(policy::SVG_DEPTH as usize - 2)), 81.0, 1e-6);
+}
+
+#[test]
+fn entities_markers_and_patterns_cannot_multiply() {
+    let mut entities =
+        String::from(r#"<!DOCTYPE svg [<!ENTITY e0 "<rect width='9' height='9'/>">"#);
+    for i in 1..9 {
+        entities += &format!("<!ENTITY e{i} \"{}\">", format!("&e{};", i - 1).repeat(10));
+    }
+    let start = std::time::Instant::now();
+    assert!(from_svg((entities + "]>" + &drawing("&e8;")).as_bytes(), TOLERANCE).is_err());
+
+    let mut markers = String::new();
+    let mut patterns = String::new();
+    for i in 0..8 {
+        let line = format!("M0 0{}", "L1 1L2 0".repeat(20));
+        markers += &format!(
+            r##"<marker id="m{i}"><path marker-mid="url(#m{0})" style="marker-mid:url(#m{0})" d="{line}"/></marker>"##,
+            i + 1
+        );
+        let tile = format!(r##"<rect fill="url(#p{})" width="1" height="1"/>"##, i + 1).repeat(20);
+        patterns += &format!(r#"<pattern id="p{i}" width="1" height="1">{tile}</pattern>"#);
+    }
+    let body = format!(
+        r##"{markers}{patterns}<path marker-mid="url(#m0)" fill="url(#p0)" d="M0 0H9V9H0Z"/>"##
+    );
+    near(area(&body), 81.0, 1e-6);
+    assert!(start.elapsed().as_secs_f64() < 2.0);
+}
