@@ -42,8 +42,14 @@ pub fn carve_follower_with_manifold(
     simple("the follower's blank", blank)?;
     let driver = prism_through(driver_outline, thickness);
     let stock = Solid::extrude(blank, &[], thickness);
+    let near = prism_through(&around(blank), thickness);
     let cutters = poses.iter().map(|&(driver_angle, follower_angle)| {
-        driver.rotate_z(driver_angle).translate(-center_distance, 0.0, 0.0).rotate_z(follower_angle)
+        driver
+            .rotate_z(driver_angle)
+            .translate(-center_distance, 0.0, 0.0)
+            .rotate_z(follower_angle)
+            .intersect(&near)
+            .settled()
     });
     let rest = stock.subtract(&Solid::union_all(cutters.collect()));
     let outline = rest
@@ -56,6 +62,14 @@ pub fn carve_follower_with_manifold(
     check(&mesh, Expected { volume: area * thickness, genus: 0 })
         .map_err(|fault| SolidError::Unsound { part: "the carved follower".to_owned(), fault })?;
     Ok(Carved { outline, area, mesh })
+}
+
+/// An octagon about the axis that clears the blank: what of a driver lies outside cuts nothing, and
+/// dropping it first makes every union smaller.
+fn around(blank: &[Point]) -> Vec<Point> {
+    let reach = blank.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+    let corner = Point::new(1.25 * reach, 0.0);
+    (0..8).map(|i| geometry::rotate(corner, f64::from(i) * std::f64::consts::FRAC_PI_4)).collect()
 }
 
 #[cfg(test)]
@@ -71,18 +85,18 @@ mod tests {
     #[test]
     fn a_round_driver_leaves_a_round_follower() {
         let (radius, distance) = (30.0, 50.0);
-        let driver = circle(radius, 1e-3);
+        let driver = circle(radius, 1e-2);
         let carved = carve_follower_with_manifold(
             &driver,
             &circle(25.0, 1e-2),
             distance,
-            &even_poses(256),
+            &even_poses(128),
             5.0,
         )
         .unwrap();
         let least = PI * (distance - radius).powi(2);
-        // Scallops between poses stay: about L (pi/256)^2 / 2 x (r / (L - r) + 1) in radius.
-        assert!(carved.area > least && carved.area < least * (1.0 + 1e-3), "{}", carved.area);
+        // Below the scallops between poses and the chords of the driver stays the true circle.
+        assert!(carved.area > least && carved.area < least * (1.0 + 5e-3), "{}", carved.area);
         assert!((carved.mesh.volume() / (5.0 * carved.area) - 1.0).abs() < 2e-5);
     }
 

@@ -102,7 +102,8 @@ impl Solid {
     }
 
     /// Makes a lazy kernel do its work now: a question about the result is the only way to ask.
-    fn settled(self) -> Self {
+    #[must_use]
+    pub fn settled(self) -> Self {
         let _ = self.is_empty();
         self
     }

@@ -22,3 +22,6 @@ pub use gear::{assembly_solids, gear_solid};
 pub use kernel::Solid;
 pub use mesh::Mesh;
 pub use shading::{Shading, shade};
+
+#[cfg(test)]
+pub(crate) use gear::tests;
