@@ -1,1 +1,99 @@
+//! One file per format, behind one small trait.
 //!
+//! Exporters write what they are given, an [`Assembly`] and the checked solid of
+//! each of its gears; they compute no geometry of their own. Every file appears
+//! whole or not at all ([`write_atomically`]).
+
+mod atomic;
+mod glb;
+mod json;
+mod obj;
+mod stl;
+
+pub use atomic::{ExportError, prepare_folder, write_atomically};
+pub use glb::Glb;
+pub use json::write_json;
+pub use obj::Obj;
+pub use stl::Stl;
+
+use crate::assembly::Assembly;
+use crate::solid::Mesh;
+use std::path::{Path, PathBuf};
+
+/// What exporters write.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts<'a> {
+    /// The gears, their places and their motion.
+    pub assembly: &'a Assembly,
+    /// The solid of each gear, in the gears' order, each in its gear's own frame, mm.
+    pub meshes: &'a [Mesh],
+}
+
+impl<'a> Parts<'a> {
+    /// Each gear with its solid.
+    fn iter(self) -> impl ExactSizeIterator<Item = (&'a crate::assembly::PlacedGear, &'a Mesh)> {
+        self.assembly.gears.iter().zip(self.meshes)
+    }
+}
+
+/// A file format.
+pub trait Export {
+    /// The files it writes for this assembly, without folder.
+    fn file_names(&self, assembly: &Assembly) -> Vec<String>;
+
+    /// Writes the files into `folder`, which exists, and returns where they are.
+    ///
+    /// # Errors
+    /// [`ExportError`], naming the file; files finished before it stay.
+    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError>;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::PlacedGear;
+    use crate::geometry::Point;
+    use crate::policy;
+    use crate::solid::tests::wavy;
+    use crate::solid::{Bore, assembly_solids};
+    use std::f64::consts::TAU;
+
+    /// Two wavy gears that turn by a law with a wave in it, in 1025 samples.
+    pub(super) fn wavy_pair() -> (Assembly, Vec<Mesh>) {
+        let driver_angle: Vec<f64> = (0..=1024).map(|i| TAU * f64::from(i) / 1024.0).collect();
+        let law = |a: &f64| -(a + 0.4 * (1.0 - a.cos()) + 0.05 * (5.0 * a).sin());
+        let follower = driver_angle.iter().map(law).collect();
+        let gears = vec![
+            PlacedGear {
+                gear: wavy("driver", 640, Bore::Round { diameter: 5.0 }),
+                axis: Point::origin(),
+                angle: driver_angle.clone(),
+            },
+            PlacedGear {
+                gear: wavy("follower", 640, Bore::Lego { play: policy::LEGO_AXLE_PLAY }),
+                axis: Point::new(80.0, 0.0),
+                angle: follower,
+            },
+        ];
+        let assembly = Assembly { gears, driver_angle, thickness: 6.0 };
+        let meshes = assembly_solids(&assembly).unwrap();
+        (assembly, meshes)
+    }
+
+    #[test]
+    fn every_format_writes_the_files_it_names() {
+        let (assembly, meshes) = wavy_pair();
+        let folder = tempfile::tempdir().unwrap();
+        let parts = Parts { assembly: &assembly, meshes: &meshes };
+        let formats: [&dyn Export; 3] = [&Stl, &Obj, &Glb::default()];
+        for format in formats {
+            let written = format.write(parts, folder.path()).unwrap();
+            let names: Vec<PathBuf> =
+                format.file_names(&assembly).iter().map(|n| folder.path().join(n)).collect();
+            assert_eq!(written, names);
+            assert!(written.iter().all(|p| p.metadata().unwrap().len() > 1000));
+        }
+        let left = std::fs::read_dir(folder.path()).unwrap().count();
+        assert_eq!(left, 4, "no temporary file stays");
+    }
+}

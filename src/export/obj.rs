@@ -1,0 +1,100 @@
+//! Wavefront OBJ: all gears in one file, standing in mesh.
+
+use super::{Export, ExportError, Parts, write_atomically};
+use crate::assembly::Assembly;
+use crate::policy;
+use crate::solid::shade;
+use obj_exporter::{Geometry, ObjSet, Object, Primitive, Shape, Vertex};
+use std::path::{Path, PathBuf};
+
+/// `pair.obj`: one object per gear in the first pose of the motion, mm, six decimals, with normals.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Obj;
+
+impl Export for Obj {
+    fn file_names(&self, _: &Assembly) -> Vec<String> {
+        vec!["pair.obj".to_owned()]
+    }
+
+    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
+        let set = ObjSet { material_library: None, objects: objects(parts) };
+        let path = folder.join("pair.obj");
+        write_atomically(&path, |out| obj_exporter::export(&set, out))?;
+        Ok(vec![path])
+    }
+}
+
+fn objects(parts: Parts<'_>) -> Vec<Object> {
+    let vertex = |[x, y, z]: [f64; 3]| Vertex { x, y, z };
+    parts
+        .iter()
+        .map(|(placed, mesh)| {
+            let shading = shade(mesh, policy::CREASE_ANGLE);
+            let moved = |p: &[f64; 3]| vertex([p[0] + placed.axis.x, p[1] + placed.axis.y, p[2]]);
+            let faces = mesh.triangles.iter().zip(&shading.corners).map(|(t, n)| {
+                let [a, b, c] = [0, 1, 2].map(|k| (t[k] as usize, None, Some(n[k] as usize)));
+                Shape {
+                    primitive: Primitive::Triangle(a, b, c),
+                    groups: Vec::new(),
+                    smoothing_groups: Vec::new(),
+                }
+            });
+            Object {
+                name: placed.gear.name.clone(),
+                vertices: mesh.positions.iter().map(moved).collect(),
+                tex_vertices: Vec::new(),
+                normals: shading.normals.iter().map(|&n| vertex(n)).collect(),
+                geometry: vec![Geometry { material_name: None, shapes: faces.collect() }],
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::wavy_pair;
+    use super::*;
+    use crate::solid::{Expected, Mesh, check};
+
+    #[test]
+    fn both_gears_read_back_sound_and_in_place() {
+        let (assembly, meshes) = wavy_pair();
+        let folder = tempfile::tempdir().unwrap();
+        let parts = Parts { assembly: &assembly, meshes: &meshes };
+        let path = Obj.write(parts, folder.path()).unwrap().remove(0);
+        let text = std::fs::read_to_string(path).unwrap();
+        let mut read: Vec<(String, Mesh)> = Vec::new();
+        let mut before = 0;
+        for line in text.lines() {
+            let mut words = line.split_whitespace();
+            let kind = words.next().unwrap_or_default();
+            let rest: Vec<&str> = words.collect();
+            match kind {
+                "o" => {
+                    before += read.last().map_or(0, |(_, m)| m.positions.len());
+                    read.push((rest[0].to_owned(), Mesh::default()));
+                }
+                "v" => {
+                    let p = [0, 1, 2].map(|k| rest[k].parse::<f64>().unwrap());
+                    read.last_mut().unwrap().1.positions.push(p);
+                }
+                "f" => {
+                    let index = |k: usize| {
+                        let (v, _) = rest[k].split_once("//").unwrap();
+                        (v.parse::<usize>().unwrap() - 1 - before) as u32
+                    };
+                    read.last_mut().unwrap().1.triangles.push([0, 1, 2].map(index));
+                }
+                _ => {}
+            }
+        }
+        assert_eq!(read.len(), 2);
+        for (((name, mesh), original), placed) in read.iter().zip(&meshes).zip(&assembly.gears) {
+            assert_eq!(*name, placed.gear.name);
+            let expected = Expected { volume: original.volume(), genus: 1 };
+            assert_eq!(check(mesh, expected), Ok(()));
+            let low = mesh.positions.iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+            assert!((low - (placed.axis.x - 42.5)).abs() < 0.2, "{low}");
+        }
+    }
+}
