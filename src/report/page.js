@@ -174,6 +174,12 @@
 
   document.querySelector(".controls").hidden = false;
   setNear();
-  setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+  const goToFragment = () => {
+    const asked = /^#angle=(\d+(?:\.\d+)?)$/.exec(location.hash);
+    if (asked) goTo(Number(asked[1]) * DEGREE);
+    return Boolean(asked);
+  };
+  addEventListener("hashchange", goToFragment);
+  if (!goToFragment()) setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
   root.dataset.ready = "turning";
 })();

@@ -140,12 +140,13 @@ impl Sheet {
     fn ghosts(&self, gears: &[Posed], out: &mut String) {
         let _ = writeln!(
             out,
-            "<g id=\"input\" fill=\"{GHOST_INK}\" fill-opacity=\".3\" stroke=\"{GHOST_INK}\" \
+            "<g id=\"input\" fill-rule=\"evenodd\" fill=\"{GHOST_INK}\" fill-opacity=\".3\" stroke=\"{GHOST_INK}\" \
              stroke-width=\"{}\" stroke-linejoin=\"round\">",
             self.u(0.25)
         );
         for gear in gears {
-            let _ = writeln!(out, "<path d=\"{}\"/>", self.grid.ring(&gear.input));
+            let (input, bore) = (self.grid.ring(&gear.input), self.grid.ring(&gear.bore));
+            let _ = writeln!(out, "<path d=\"{input}{bore}\"/>");
         }
         out.push_str("</g>\n");
     }
