@@ -1,0 +1,192 @@
+//! What a report says: plain data, filled in by whoever ran the design.
+
+use serde::Serialize;
+
+/// How the run ended, as the badge at the top of the page says it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The gears are sound and nothing needs attention.
+    Good,
+    /// The gears are sound; the warnings say what was given up.
+    Warnings,
+    /// The gears were made but must not be trusted.
+    Unsound,
+}
+
+impl Verdict {
+    /// The words on the badge.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Good => "Good",
+            Self::Warnings => "Made with warnings",
+            Self::Unsound => "Not sound",
+        }
+    }
+}
+
+/// Everything the page shows besides the gears themselves.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReportData {
+    /// Heading of the page, such as `heart and dove`.
+    pub title: String,
+    /// The command that makes this design again; empty to leave it out.
+    pub command: String,
+    /// The program and its version, for the foot of the page.
+    pub made_by: String,
+    /// How the run ended.
+    pub verdict: Verdict,
+    /// One sentence that explains the verdict.
+    pub summary: String,
+    /// Tables of numbers, in the order shown.
+    pub sections: Vec<Section>,
+    /// Plots, in the order shown.
+    pub plots: Vec<Plot>,
+    /// Warnings and steps, in the order they happened.
+    pub notes: Vec<Note>,
+}
+
+/// A headed table of numbers.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Section {
+    /// Heading of the table.
+    pub title: String,
+    /// Its rows.
+    pub rows: Vec<Row>,
+}
+
+impl Section {
+    /// A section without rows yet.
+    #[must_use]
+    pub fn new(title: impl Into<String>) -> Self {
+        Self { title: title.into(), rows: Vec::new() }
+    }
+
+    /// Adds a row.
+    #[must_use]
+    pub fn row(mut self, label: impl Into<String>, value: impl Into<String>) -> Self {
+        self.rows.push(Row { label: label.into(), value: value.into(), note: None });
+        self
+    }
+
+    /// Adds a row with an explanation.
+    #[must_use]
+    pub fn noted_row(
+        mut self,
+        label: impl Into<String>,
+        value: impl Into<String>,
+        note: impl Into<String>,
+    ) -> Self {
+        self.rows.push(Row { label: label.into(), value: value.into(), note: Some(note.into()) });
+        self
+    }
+}
+
+/// One number, or one fact, with its name.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// What it is.
+    pub label: String,
+    /// Its value as a person reads it, with the unit.
+    pub value: String,
+    /// What the value means or is compared with.
+    pub note: Option<String>,
+}
+
+/// How much attention a note asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NoteKind {
+    /// Something the program did.
+    Step,
+    /// Something that was given up or may matter.
+    Warning,
+    /// Something that makes the pair unsound.
+    Fault,
+}
+
+/// A plain sentence about the run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Note {
+    /// How much attention it asks for.
+    pub kind: NoteKind,
+    /// The sentence.
+    pub text: String,
+}
+
+impl Note {
+    /// A note of the given kind.
+    #[must_use]
+    pub fn new(kind: NoteKind, text: impl Into<String>) -> Self {
+        Self { kind, text: text.into() }
+    }
+}
+
+/// Curves over one axis.
+///
+/// In a plot that follows the driver, x is the driver's angle in radians; the
+/// page shows it in degrees and moves a cursor along it as the gears turn.
+/// In any other plot x is shown as it is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Plot {
+    /// Heading of the plot.
+    pub title: String,
+    /// What x is, with its unit as shown.
+    pub x_label: String,
+    /// What y is, with its unit.
+    pub y_label: String,
+    /// Whether x is the driver's angle, radians.
+    pub follows_driver: bool,
+    /// The curves; x must not decrease along each.
+    pub series: Vec<Series>,
+    /// Values of y worth a line across the plot.
+    pub limits: Vec<Limit>,
+}
+
+impl Plot {
+    /// An empty plot over the driver's angle.
+    #[must_use]
+    pub fn over_driver_angle(title: impl Into<String>, y_label: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            x_label: "driver angle, °".into(),
+            y_label: y_label.into(),
+            follows_driver: true,
+            series: Vec::new(),
+            limits: Vec::new(),
+        }
+    }
+
+    /// Adds a curve.
+    #[must_use]
+    pub fn series(mut self, name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        self.series.push(Series { name: name.into(), points });
+        self
+    }
+
+    /// Adds a line across the plot at `value` of y.
+    #[must_use]
+    pub fn limit(mut self, label: impl Into<String>, value: f64) -> Self {
+        self.limits.push(Limit { label: label.into(), value });
+        self
+    }
+}
+
+/// One curve of a plot.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Series {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its points (x, y).
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A line across a plot.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Limit {
+    /// What the line marks.
+    pub label: String,
+    /// Where on the y axis.
+    pub value: f64,
+}
