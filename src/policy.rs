@@ -11,3 +11,7 @@ pub const MIN_TRANSMISSION_SAMPLES: usize = 8;
 pub const MIN_RELATIVE_SPEED: f64 = 1e-3;
 /// Cap on safeguarded Newton steps; bisection alone reaches rounding in 53.
 pub const MAX_NEWTON_STEPS: usize = 60;
+/// Least radius of a shape about a rotation centre over its greatest; below it the centre counts as on the boundary.
+pub const MIN_RELATIVE_RADIUS: f64 = 1e-6;
+/// Area (relative) that rounding may add to a star-shaped curve without its being called lost.
+pub const STAR_SHAPED_WITHIN: f64 = 1e-9;
