@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use super::cyclic::solve_cyclic;
 use crate::policy;
 
 /// Why samples do not make a transmission function.
@@ -335,40 +336,12 @@ impl Spline {
 }
 
 /// Slopes (per knot interval) of the periodic cubic spline through `samples`.
-///
-/// Solves `d[i-1] + 4 d[i] + d[i+1] = 3 (y[i+1] - y[i-1])` by a cyclic tridiagonal elimination
-/// (Sherman and Morrison).
 fn periodic_slopes(samples: &[f64]) -> Vec<f64> {
     let n = samples.len();
     let rhs: Vec<f64> =
         (0..n).map(|i| 3.0 * (samples[(i + 1) % n] - samples[(i + n - 1) % n])).collect();
-    let corner = -4.0;
-    let mut first = vec![0.0; n];
-    first[0] = corner;
-    first[n - 1] = 1.0;
-    let solve = |r: &[f64]| {
-        let diagonal = |i: usize| match i {
-            0 => 4.0 - corner,
-            i if i == n - 1 => 4.0 - 1.0 / corner,
-            _ => 4.0,
-        };
-        let mut upper = vec![0.0; n];
-        let mut x = vec![0.0; n];
-        upper[0] = 1.0 / diagonal(0);
-        x[0] = r[0] / diagonal(0);
-        for i in 1..n {
-            let pivot = diagonal(i) - upper[i - 1];
-            upper[i] = 1.0 / pivot;
-            x[i] = (r[i] - x[i - 1]) / pivot;
-        }
-        for i in (0..n - 1).rev() {
-            x[i] -= upper[i] * x[i + 1];
-        }
-        x
-    };
-    let (x, z) = (solve(&rhs), solve(&first));
-    let factor = (x[0] + x[n - 1] / corner) / (1.0 + z[0] + z[n - 1] / corner);
-    x.iter().zip(&z).map(|(x, z)| x - factor * z).collect()
+    let side = vec![1.0; n];
+    solve_cyclic(&side, &vec![4.0; n], &side, &rhs)
 }
 
 /// Where in 0..1 the cubic with these coefficients has a horizontal tangent.

@@ -1,0 +1,169 @@
+//! Eq. 12 at every shift at once.
+//!
+//! With a the short gear's law and b a window of the long one's, scaled by c to
+//! close, Delta = |a|^2 - 2 c corr(a, b) + c^2 |b|^2: one inverse Fourier transform
+//! gives the correlation for all shifts.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+
+/// Transforms for laws of one length.
+pub(super) struct Aligner {
+    short_len: usize,
+    long_len: usize,
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+}
+
+/// The short gear's law, transformed.
+pub(super) struct ShortSpectrum {
+    pub(super) law: Vec<f64>,
+    spectrum: Vec<Complex<f64>>,
+    energy: f64,
+}
+
+/// The long gear's law, transformed, with the scale and the energy of each of its windows.
+pub(super) struct LongSpectrum {
+    pub(super) law: Vec<f64>,
+    spectrum: Vec<Complex<f64>>,
+    scale: Vec<f64>,
+    energy: Vec<f64>,
+}
+
+/// Buffers of one thread.
+pub(super) struct Scratch {
+    product: Vec<Complex<f64>>,
+    work: Vec<Complex<f64>>,
+    delta: Vec<f64>,
+}
+
+/// The best shift of one pair of laws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Alignment {
+    /// Delta of Eq. 12, integrated over the driver's whole turn.
+    pub(super) delta: f64,
+    /// Samples by which the window of the long gear's law is shifted.
+    pub(super) shift: usize,
+}
+
+impl Aligner {
+    /// For `short_len` samples a period and a long gear of `windows` periods.
+    pub(super) fn new(short_len: usize, windows: usize) -> Self {
+        let long_len = short_len * windows;
+        let mut planner = RealFftPlanner::new();
+        Self {
+            short_len,
+            long_len,
+            forward: planner.plan_fft_forward(long_len),
+            inverse: planner.plan_fft_inverse(long_len),
+        }
+    }
+
+    pub(super) fn scratch(&self) -> Scratch {
+        Scratch {
+            product: self.inverse.make_input_vec(),
+            work: self.inverse.make_scratch_vec(),
+            delta: self.inverse.make_output_vec(),
+        }
+    }
+
+    /// Transforms the short gear's law of one period.
+    pub(super) fn short(&self, law: Vec<f64>) -> ShortSpectrum {
+        let mut padded = law.clone();
+        padded.resize(self.long_len, 0.0);
+        let energy = law.iter().map(|v| v * v).sum();
+        let spectrum = self.transform(padded).iter().map(Complex::conj).collect();
+        ShortSpectrum { law, spectrum, energy }
+    }
+
+    /// Transforms the long gear's law of one whole turn; its windows will be scaled to the mean `mean`.
+    pub(super) fn long(&self, law: Vec<f64>, mean: f64) -> LongSpectrum {
+        let (n, m) = (self.short_len, self.long_len);
+        let mut sum: f64 = law[..n].iter().sum();
+        let mut squares: f64 = law[..n].iter().map(|v| v * v).sum();
+        let (mut scale, mut energy) = (Vec::with_capacity(m), Vec::with_capacity(m));
+        for s in 0..m {
+            let c = n as f64 * mean / sum;
+            // The inverse transform is not normalised: its factor is folded in here.
+            scale.push(2.0 * c / m as f64);
+            energy.push(c * c * squares);
+            let (gone, come) = (law[s], law[(s + n) % m]);
+            sum += come - gone;
+            squares += come * come - gone * gone;
+        }
+        let spectrum = self.transform(law.clone());
+        LongSpectrum { law, spectrum, scale, energy }
+    }
+
+    fn transform(&self, mut values: Vec<f64>) -> Vec<Complex<f64>> {
+        let mut spectrum = self.forward.make_output_vec();
+        // The lengths fit by construction.
+        let _ = self.forward.process(&mut values, &mut spectrum);
+        spectrum
+    }
+
+    /// The shift of least Delta among every `stride`-th.
+    pub(super) fn best(
+        &self,
+        short: &ShortSpectrum,
+        long: &LongSpectrum,
+        stride: usize,
+        scratch: &mut Scratch,
+    ) -> Alignment {
+        let Scratch { product, work, delta } = scratch;
+        for ((p, a), b) in product.iter_mut().zip(&short.spectrum).zip(&long.spectrum) {
+            *p = a * b;
+        }
+        // Only a residue of rounding in the two purely real terms could be refused here; it is harmless.
+        let _ = self.inverse.process_with_scratch(product, delta, work);
+        for ((d, c), e) in delta.iter_mut().zip(&long.scale).zip(&long.energy) {
+            *d = e - c * *d;
+        }
+        let mut best = Alignment { delta: f64::INFINITY, shift: 0 };
+        for (shift, d) in delta.iter().enumerate().step_by(stride) {
+            if *d < best.delta {
+                best = Alignment { delta: *d, shift };
+            }
+        }
+        let over_turn = TAU / self.short_len as f64;
+        Alignment { delta: ((best.delta + short.energy) * over_turn).max(0.0), ..best }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn transforms_find_what_trying_every_shift_finds() {
+        let wave = |i: usize, m: usize| {
+            let x = TAU * i as f64 / m as f64;
+            1.0 + 0.5 * (x + 1.0).sin() + 0.2 * (5.0 * x).cos()
+        };
+        for windows in [1, 3] {
+            let n = 60;
+            let m = n * windows;
+            let a: Vec<f64> =
+                (0..n).map(|i| 1.0 + 0.4 * (TAU * i as f64 / n as f64).cos()).collect();
+            let b: Vec<f64> = (0..m).map(|i| wave(i, m)).collect();
+            let slow = (0..m)
+                .map(|s| {
+                    let window: Vec<f64> = (0..n).map(|i| b[(i + s) % m]).collect();
+                    let c = n as f64 / window.iter().sum::<f64>();
+                    window.iter().zip(&a).map(|(b, a)| (c * b - a).powi(2)).sum::<f64>() * TAU
+                        / n as f64
+                })
+                .enumerate()
+                .min_by(|x, y| x.1.total_cmp(&y.1))
+                .unwrap();
+            let aligner = Aligner::new(n, windows);
+            let (short, long) = (aligner.short(a), aligner.long(b, 1.0));
+            let fast = aligner.best(&short, &long, 1, &mut aligner.scratch());
+            assert_eq!(fast.shift, slow.0);
+            assert!((fast.delta - slow.1).abs() < 1e-12);
+        }
+    }
+}
