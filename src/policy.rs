@@ -324,3 +324,57 @@ pub const CURVATURE_ROUNDS: usize = 60;
 pub const CURVATURE_DIFFUSION: f64 = 0.15;
 /// Samples by which diffusion spreads beyond those over the bound, halved in strength at each.
 pub const CURVATURE_SPREAD: usize = 4;
+
+// ---- Design --------------------------------------------------------------------------------
+
+/// Steepest lean of a pitch curve by default, radians. With a pressure angle of 20 degrees the
+/// force then stays within 75 degrees of the motion; friction binds soon after.
+pub const DESIGN_MAX_LEAN: f64 = 55.0 * std::f64::consts::PI / 180.0;
+/// Largest curvature of a pitch curve times the module, first choice. At 0.5 a convex corner is
+/// rolled like a pinion of four teeth, the sharpest that still hands motion on at 30 degrees.
+pub const CURVATURE_TIMES_MODULE: f64 = 0.5;
+/// Factor on that bound at each repair.
+pub const CURVATURE_REPAIR: f64 = 0.75;
+/// Taken from the lean bound at each repair, radians.
+pub const LEAN_REPAIR: f64 = 5.0 * std::f64::consts::PI / 180.0;
+/// Repairs tried at most, so that the work stays bounded.
+pub const REPAIRS: usize = 4;
+/// Tooth counts that are tried, smallest first.
+pub const TOOTH_COUNTS: [u32; 7] = [24, 32, 40, 48, 56, 64, 72];
+/// Change of shape (in the measure of E_s) by rounding corners below which fewer teeth are taken.
+pub const ROUNDING_ACCEPTED: f64 = 0.01;
+/// Smallest module chosen without being asked, mm: below it a common printer fails.
+pub const SMALLEST_CHOSEN_MODULE: f64 = 1.2;
+/// Fewest and most teeth on either gear.
+pub const TEETH_RANGE: (u32, u32) = (6, 1000);
+/// Motion samples per period of the motion in every file.
+pub const MOTION_SAMPLES: usize = 1024;
+/// Points on a pitch curve in every file.
+pub const PITCH_CURVE_POINTS: usize = 720;
+/// 99th percentile of the transmission error without clearance, in pitches, that a pair should keep.
+pub const GOOD_TRANSMISSION_ERROR: f64 = 0.02;
+/// The same above which a pair is not sound.
+pub const WORST_TRANSMISSION_ERROR: f64 = 0.25;
+/// Interference of the finished gears above which a pair is not sound, in modules.
+pub const WORST_INTERFERENCE: f64 = 1e-4;
+/// Pressure angle plus friction above which a drive is likely to bind, radians (a warning).
+pub const STEEP_PRESSURE_ANGLE: f64 = 70.0 * std::f64::consts::PI / 180.0;
+/// Largest centre distance, extent, clearance or thickness accepted, mm: ten metres.
+pub const LARGEST_LENGTH: f64 = 10_000.0;
+/// Distance between a round bore and its chords, mm.
+pub const BORE_CHORD_TOLERANCE: f64 = 0.005;
+/// Wall between bore and outline below which a bore is refused, mm: two printed lines.
+pub const BORE_WALL: f64 = 0.8;
+/// Lean below which reducing it gains less than it costs in likeness, radians.
+pub const LEAN_WORTH_REDUCING: f64 = 40.0 * std::f64::consts::PI / 180.0;
+/// Change of shape (in the measure of E_s) that a person wants to hear of.
+pub const LIMIT_WORTH_SAYING: f64 = 0.005;
+/// Height of a regular wave tooth from root to tip, in addenda: that of the involute teeth's addendum
+/// and as much dedendum.
+pub const WAVE_HEIGHT: f64 = 1.6;
+/// rho of Eq. 17, in modules.
+pub const WAVE_TOLERANCE: f64 = 0.1;
+/// Tallest wave tooth, in modules: Eq. 17 grows without bound with the lean.
+pub const WAVE_TALLEST: f64 = 3.0;
+/// Points on one wave: chords within 0.005 module.
+pub const WAVE_POINTS_PER_TOOTH: usize = 32;

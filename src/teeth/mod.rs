@@ -7,11 +7,13 @@ mod layout;
 mod profile;
 mod rolling;
 mod root;
+mod wave;
 
 pub use profile::{EdgeKind, Profile};
 pub use rolling::Side;
+pub use wave::wave_pair;
 
-use crate::pitch::Centrodes;
+use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
 use layout::{Layout, Rack};
 use profile::gear_profile;
@@ -65,54 +67,107 @@ pub struct ToothedPair {
     pub cuts: usize,
 }
 
-/// Builds involute teeth on both gears.
-#[must_use]
-pub fn involute_pair(centrodes: &Centrodes, options: &TeethOptions) -> Option<ToothedPair> {
+/// Why no teeth could be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TeethError {
+    /// The teeth do not divide over the symmetry of the driver.
+    #[error("{teeth} driver teeth do not divide into {folds} equal parts; give a multiple of {folds}")]
+    Indivisible {
+        /// Teeth asked for.
+        teeth: u32,
+        /// Periods of the motion per turn of the driver.
+        folds: u32,
+    },
+    /// The outline of a gear falls apart or crosses itself beyond repair.
+    #[error("the teeth of the {gear} run into one another; ask for more teeth or more smoothing")]
+    Tangled {
+        /// Which gear.
+        gear: &'static str,
+    },
+    /// The clearance eats up a gear.
+    #[error("a clearance of {clearance} mm leaves nothing of a gear; give less, or a larger pair")]
+    NothingLeft {
+        /// Clearance asked for, mm.
+        clearance: f64,
+    },
+}
+
+impl TeethOptions {
+    fn teeth_per_period(&self, folds: u32) -> Result<usize, TeethError> {
+        if self.driver_teeth == 0 || !self.driver_teeth.is_multiple_of(folds) {
+            return Err(TeethError::Indivisible { teeth: self.driver_teeth, folds });
+        }
+        Ok((self.driver_teeth / folds) as usize)
+    }
+}
+
+/// Builds involute teeth on both gears: flanks from one rack, roots swept free by the mate's tips, and
+/// whatever still collides carved from the follower.
+///
+/// # Errors
+/// See [`TeethError`].
+pub fn involute_pair(
+    centrodes: &Centrodes,
+    options: &TeethOptions,
+) -> Result<ToothedPair, TeethError> {
     let rolling = Rolling::new(centrodes);
     let folds = centrodes.transmission.driver_fold();
-    let teeth = (options.driver_teeth / folds) as usize;
+    let teeth = options.teeth_per_period(folds)?;
     let pitch = rolling.period() / teeth as f64;
     let module = pitch / std::f64::consts::PI;
     let rack = Rack {
         pitch,
         module,
         pressure_angle: options.pressure_angle,
-        steepest_pressure_angle: options.steepest_pressure_angle,
+        steepest_pressure_angle: options.steepest_pressure_angle.max(options.pressure_angle),
         addendum: options.addendum * module,
         root_clearance: options.root_clearance * module,
     };
     let layout = Layout::new(&rolling, &rack, teeth);
     let tolerance = options.chord_tolerance * module;
-    let [driver, follower] =
-        [(Side::Driver, folds), (Side::Follower, centrodes.transmission.follower_fold())].map(
-            |(side, folds)| {
-                gear_profile(&rolling, &layout, &rack, side, folds, options.backlash, tolerance)
-            },
-        );
-    let (driver, follower) = (driver.untangled()?, follower.untangled()?);
-    // What the flanks and roots left standing in each other's way is carved from the follower.
-    let tool = driver.inset(policy::CARVE_SKIN * module)?;
+    let gear = |side, folds, name| {
+        gear_profile(&rolling, &layout, &rack, side, folds, options.backlash, tolerance)
+            .untangled()
+            .ok_or(TeethError::Tangled { gear: name })
+    };
+    let driver = gear(Side::Driver, folds, "driver")?;
+    let follower = gear(Side::Follower, centrodes.transmission.follower_fold(), "follower")?;
+    let (follower, cuts) = carve_rest(&rolling, &driver, follower, module, teeth)?;
+    Ok(ToothedPair { driver, follower, module, uncovered: layout.uncovered(), cuts })
+}
+
+/// Carves from the follower what flanks and roots left standing in the driver's way.
+fn carve_rest(
+    rolling: &Rolling<'_>,
+    driver: &Profile,
+    follower: Profile,
+    module: f64,
+    teeth: usize,
+) -> Result<(Profile, usize), TeethError> {
+    let tangled = |gear| TeethError::Tangled { gear };
+    let tool = driver.inset(policy::CARVE_SKIN * module).ok_or(tangled("driver"))?;
+    let periods = rolling.cycle_periods();
     let carved = carve::carve(
-        &rolling,
+        rolling,
         &tool.points,
         &follower.points,
-        rolling.period() * f64::from(cycle_periods(centrodes)),
-        policy::CARVE_INSTANTS_PER_TOOTH * options.driver_teeth as usize,
+        rolling.period() * f64::from(periods),
+        policy::CARVE_INSTANTS_PER_TOOTH * teeth * periods as usize,
         policy::CARVE_DEPTH * module,
         true,
-    )?;
-    let cuts = carved.cuts;
-    let follower = if cuts == 0 {
-        follower
-    } else {
-        follower.relabelled(carved.outline).without_short_edges(policy::SHORTEST_EDGE * module)
-    };
-    Some(ToothedPair { driver, follower, module, uncovered: layout.uncovered(), cuts })
+    )
+    .ok_or(tangled("follower"))?;
+    if carved.cuts == 0 {
+        return Ok((follower, 0));
+    }
+    let outline = follower.relabelled(carved.outline);
+    Ok((outline.without_short_edges(policy::SHORTEST_EDGE * module), carved.cuts))
 }
 
 /// Periods of the motion after which both gears are back where they began.
-fn cycle_periods(centrodes: &Centrodes) -> u32 {
-    let (a, b) = (centrodes.transmission.driver_fold(), centrodes.transmission.follower_fold());
+#[must_use]
+pub fn cycle_periods(transmission: &Transmission) -> u32 {
+    let (a, b) = (transmission.driver_fold(), transmission.follower_fold());
     let gcd = |mut a: u32, mut b: u32| {
         while b != 0 {
             (a, b) = (b, a % b);

@@ -146,6 +146,11 @@ impl<'a> Rolling<'a> {
         self.knots[self.knots.len() - 1]
     }
 
+    /// Periods of the motion in one whole cycle of both gears.
+    pub(crate) fn cycle_periods(&self) -> u32 {
+        super::cycle_periods(&self.centrodes.transmission)
+    }
+
     /// Driver angle at arc length `s`, any real.
     pub(crate) fn driver_angle(&self, s: f64) -> f64 {
         let turns = (s / self.period()).floor();

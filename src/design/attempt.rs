@@ -1,0 +1,350 @@
+//! One try at a pair: settings, the gears they give, and how good those are.
+
+use super::{
+    Design, DesignError, DesignOptions, Scale, TeethStyle, ToothCount, bore_for, placed_gear,
+    placed_input,
+};
+use crate::assembly::{Assembly, Gear};
+use crate::fit::{self, Fit};
+use crate::geometry::{self, Point};
+use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
+use crate::outline::Shape;
+use crate::pitch::{Centrodes, Transmission};
+use crate::policy;
+use crate::teeth::{self, Profile, TeethError, TeethOptions, ToothedPair};
+
+/// What may be changed from one attempt to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Settings {
+    teeth: u32,
+    /// Bound on curvature times module.
+    curvature: f64,
+    max_lean: f64,
+}
+
+impl Settings {
+    /// The settings asked for, the number of teeth chosen if it was left open.
+    pub(super) fn first(fit: &Fit, options: &DesignOptions) -> Result<Self, DesignError> {
+        let transmission = &fit.transmission;
+        let folds = (transmission.driver_fold(), transmission.follower_fold());
+        let mut settings = Self {
+            teeth: 0,
+            curvature: policy::CURVATURE_TIMES_MODULE,
+            max_lean: options.fit.limits.max_lean,
+        };
+        let perimeter = |centrodes: &Centrodes| centrodes.perimeter().0;
+        match options.teeth {
+            ToothCount::Teeth(count) => {
+                if count % folds.0 != 0 {
+                    return Err(DesignError::Option {
+                        name: "the number of driver teeth",
+                        value: f64::from(count),
+                        remedy: format!("give a multiple of {}, as the ratio demands", folds.0),
+                    });
+                }
+                settings.teeth = count;
+            }
+            ToothCount::Module(module) => {
+                let centrodes = scaled(transmission.clone(), options);
+                let count = perimeter(&centrodes) / (std::f64::consts::PI * module);
+                settings.teeth = whole_teeth(count, folds);
+            }
+            ToothCount::Auto => {
+                let centrodes = scaled(transmission.clone(), options);
+                let most = perimeter(&centrodes)
+                    / (std::f64::consts::PI * policy::SMALLEST_CHOSEN_MODULE);
+                for count in policy::TOOTH_COUNTS {
+                    let count = whole_teeth(f64::from(count), folds);
+                    if settings.teeth != 0 && f64::from(count) > most {
+                        break;
+                    }
+                    settings.teeth = count;
+                    let (_, cost) = fit::apply(&fit.raw, folds, &settings.limits(options))?;
+                    if cost.shape - fit.limited.shape < policy::ROUNDING_ACCEPTED {
+                        break;
+                    }
+                }
+            }
+        }
+        let (least, most) = policy::TEETH_RANGE;
+        let follower = settings.teeth * folds.1 / folds.0;
+        for (name, count) in
+            [("the number of driver teeth", settings.teeth), ("the number of follower teeth", follower)]
+        {
+            if !(least..=most).contains(&count) {
+                return Err(DesignError::Option {
+                    name,
+                    value: f64::from(count),
+                    remedy: format!("choose a module that gives {least} to {most} teeth"),
+                });
+            }
+        }
+        Ok(settings)
+    }
+
+    /// Bounds on the motion for these settings.
+    fn limits(&self, options: &DesignOptions) -> fit::Limits {
+        fit::Limits {
+            max_lean: self.max_lean,
+            max_curvature: Some(self.curvature * std::f64::consts::PI * f64::from(self.teeth)),
+            ..options.fit.limits
+        }
+    }
+
+    /// Settings that ask less of the teeth, and what they change.
+    pub(super) fn gentler(&self, last: &Attempt) -> (Self, String) {
+        let mut next = *self;
+        let lean = last.centrodes.max_lean();
+        if lean > policy::LEAN_WORTH_REDUCING && self.curvature < policy::CURVATURE_TIMES_MODULE {
+            next.max_lean = (lean - policy::LEAN_REPAIR).min(self.max_lean);
+            (next, format!("lean held to {:.0} degrees", next.max_lean.to_degrees()))
+        } else {
+            next.curvature *= policy::CURVATURE_REPAIR;
+            (next, format!("pitch curves rounded to {:.2} of the module", 1.0 / next.curvature))
+        }
+    }
+}
+
+fn whole_teeth(count: f64, folds: (u32, u32)) -> u32 {
+    ((count / f64::from(folds.0)).round().max(1.0) as u32).saturating_mul(folds.0)
+}
+
+/// The pitch curves at the size asked for.
+fn scaled(transmission: Transmission, options: &DesignOptions) -> Centrodes {
+    match options.scale {
+        Scale::CenterDistance(center_distance) => Centrodes { transmission, center_distance },
+        Scale::Extent(extent) => {
+            let unit = Centrodes { transmission, center_distance: 1.0 };
+            let mut points = unit.driver_curve(policy::PITCH_CURVE_POINTS);
+            let follower = unit.follower_curve(policy::PITCH_CURVE_POINTS);
+            points.extend(follower.iter().map(|p| Point::new(p.x + 1.0, p.y)));
+            let (low, high) = geometry::bounds(&points);
+            let size = (high - low).max();
+            Centrodes { center_distance: extent / size, ..unit }
+        }
+    }
+}
+
+/// A pair with its analysis, before it is finished.
+#[derive(Debug)]
+pub(super) struct Attempt {
+    settings: Settings,
+    pub(super) centrodes: Centrodes,
+    pair: ToothedPair,
+    finished: [Profile; 2],
+    exact: ContactAnalysis,
+    contact: ContactAnalysis,
+    rounding: fit::LimitCost,
+}
+
+impl Attempt {
+    pub(super) fn make(
+        fit: &Fit,
+        options: &DesignOptions,
+        settings: Settings,
+    ) -> Result<Self, DesignError> {
+        let folds = (fit.transmission.driver_fold(), fit.transmission.follower_fold());
+        let (samples, rounding) = fit::apply(&fit.raw, folds, &settings.limits(options))?;
+        let transmission = Transmission::from_derivative(&samples, folds.0, folds.1)?;
+        let centrodes = scaled(transmission, options);
+        let module =
+            centrodes.perimeter().0 / (std::f64::consts::PI * f64::from(settings.teeth));
+        let teeth_options = TeethOptions {
+            driver_teeth: settings.teeth,
+            pressure_angle: options.pressure_angle,
+            addendum: options.addendum,
+            backlash: options.backlash,
+            root_clearance: options
+                .root_clearance
+                .map_or(TeethOptions::default().root_clearance, |mm| mm / module),
+            chord_tolerance: options.chord_tolerance,
+            ..TeethOptions::default()
+        };
+        let pair = match options.style {
+            TeethStyle::Involute => teeth::involute_pair(&centrodes, &teeth_options)?,
+            TeethStyle::Wave => teeth::wave_pair(&centrodes, &teeth_options)?,
+        };
+        let inset = |profile: &Profile| {
+            profile.inset(options.clearance).ok_or(TeethError::NothingLeft { clearance: options.clearance })
+        };
+        let finished = [inset(&pair.driver)?, inset(&pair.follower)?];
+        let exact = contact(&centrodes, module, [&pair.driver, &pair.follower])?;
+        let contact = if options.clearance == 0.0 {
+            exact.clone()
+        } else {
+            contact(&centrodes, module, [&finished[0], &finished[1]])?
+        };
+        Ok(Self { settings, centrodes, pair, finished, exact, contact, rounding })
+    }
+
+    /// 99th percentile of the transmission error without clearance, in pitches.
+    pub(super) fn error_share(&self) -> f64 {
+        self.exact.summary.transmission_error_pitch.as_ref().map_or(f64::INFINITY, |e| e.p99_deviation)
+    }
+
+    fn interference_in_modules(&self) -> f64 {
+        self.contact.summary.max_interference.as_ref().map_or(0.0, |w| w.value / self.pair.module)
+    }
+
+    pub(super) fn is_good(&self) -> bool {
+        self.error_share() <= policy::GOOD_TRANSMISSION_ERROR
+            && self.contact.summary.lost_poses == 0
+            && self.contact.summary.lost_poses_reversed == 0
+            && self.interference_in_modules() <= policy::WORST_INTERFERENCE
+    }
+
+    /// To compare attempts: lost contact and interference weigh more than any transmission error.
+    pub(super) fn badness(&self) -> f64 {
+        let lost = self.contact.summary.lost_poses + self.contact.summary.lost_poses_reversed;
+        let interference = (self.interference_in_modules() - policy::WORST_INTERFERENCE).max(0.0);
+        lost as f64 + 10.0 * interference + self.error_share().min(1.0)
+    }
+
+    fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        let summary = &self.contact.summary;
+        if let Some(arc) = summary.lost.first() {
+            faults.push(format!(
+                "contact is lost over {:.1} degrees of driver turn, first at {:.1} degrees; try more teeth, more smoothing or a lower --max-lean",
+                summary.lost_angle.to_degrees(),
+                arc.from.to_degrees()
+            ));
+        } else if summary.lost_poses_reversed > 0 {
+            faults.push("driven backwards the pair loses contact; try more teeth or a lower --max-lean".to_owned());
+        }
+        if self.interference_in_modules() > policy::WORST_INTERFERENCE
+            && let Some(worst) = &summary.max_interference
+        {
+            faults.push(format!(
+                "the gears overlap by {:.4} mm at {:.1} degrees; give more clearance or fewer teeth",
+                worst.value,
+                worst.driver_angle.to_degrees()
+            ));
+        }
+        if self.error_share() > policy::WORST_TRANSMISSION_ERROR {
+            faults.push(format!(
+                "the transmission error reaches {:.0} % of a pitch; try more teeth or a lower --max-lean",
+                100.0 * self.error_share()
+            ));
+        }
+        faults
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.error_share() > policy::GOOD_TRANSMISSION_ERROR {
+            warnings.push(format!(
+                "the transmission error reaches {:.1} % of a pitch in places (99th percentile)",
+                100.0 * self.error_share()
+            ));
+        }
+        if let Some(worst) = &self.contact.summary.max_pressure_angle
+            && worst.value > policy::STEEP_PRESSURE_ANGLE
+        {
+            warnings.push(format!(
+                "the working pressure angle reaches {:.0} degrees at {:.0} degrees of driver turn: with friction the pair may bind there",
+                worst.value.to_degrees(),
+                worst.driver_angle.to_degrees()
+            ));
+        }
+        warnings
+    }
+
+    pub(super) fn finish(
+        self,
+        shapes: [&Shape; 2],
+        fit: Fit,
+        options: &DesignOptions,
+        mut steps: Vec<String>,
+    ) -> Result<Design, DesignError> {
+        let mut warnings = self.warnings();
+        if fit.limited.shape > policy::LIMIT_WORTH_SAYING {
+            steps.insert(0, format!(
+                "bounds on lean and torque changed the pitch curves by {:.3} in the measure of E_s (lean {:.0} to {:.0} degrees)",
+                fit.limited.shape,
+                fit.limited.lean.0.to_degrees(),
+                fit.limited.lean.1.to_degrees()
+            ));
+        }
+        let rounded = self.rounding.shape - fit.limited.shape;
+        if rounded > policy::LIMIT_WORTH_SAYING {
+            steps.push(format!(
+                "corners too sharp for the teeth were rounded: {rounded:.3} in the measure of E_s"
+            ));
+        }
+        let transmission = &self.centrodes.transmission;
+        let teeth = [
+            self.settings.teeth,
+            self.settings.teeth * transmission.follower_fold() / transmission.driver_fold(),
+        ];
+        let curves = [
+            self.centrodes.driver_curve(policy::PITCH_CURVE_POINTS),
+            self.centrodes.follower_curve(policy::PITCH_CURVE_POINTS),
+        ];
+        let fitted = [&fit.driver, &fit.follower];
+        let mut likeness = [0.0; 2];
+        let mut gears = Vec::new();
+        for (i, name) in ["driver", "follower"].into_iter().enumerate() {
+            let input = placed_input(shapes[i], fitted[i], &curves[i]);
+            likeness[i] = geometry::intersection_over_union(&curves[i], &input);
+            let outline = self.finished[i].points.clone();
+            let bore = bore_for(options.bore, &outline, &mut warnings, name)?;
+            gears.push(Gear {
+                name: name.to_owned(),
+                outline,
+                bore,
+                pitch_curve: curves[i].clone(),
+                input,
+                teeth: teeth[i],
+            });
+        }
+        let periods = teeth::cycle_periods(transmission);
+        let count = policy::MOTION_SAMPLES * periods as usize;
+        let cycle = transmission.driver_period() * f64::from(periods);
+        let driver_angle: Vec<f64> =
+            (0..=count).map(|i| cycle * i as f64 / count as f64).collect();
+        let follower_angle = driver_angle.iter().map(|&phi| -transmission.psi(phi)).collect();
+        let axes = [Point::origin(), Point::new(self.centrodes.center_distance, 0.0)];
+        let angles = [driver_angle.clone(), follower_angle];
+        let gears = gears
+            .into_iter()
+            .zip(axes)
+            .zip(angles)
+            .map(|((gear, axis), angle)| placed_gear(gear, axis, angle))
+            .collect();
+        let faults = self.faults();
+        Ok(Design {
+            names: shapes.map(|s| s.name.clone()),
+            options: options.clone(),
+            assembly: Assembly { gears, driver_angle, thickness: options.thickness },
+            fit,
+            centrodes: self.centrodes,
+            teeth,
+            pair: self.pair,
+            likeness,
+            exact_contact: self.exact,
+            contact: self.contact,
+            steps,
+            warnings,
+            faults,
+        })
+    }
+}
+
+fn contact(
+    centrodes: &Centrodes,
+    module: f64,
+    [driver, follower]: [&Profile; 2],
+) -> Result<ContactAnalysis, DesignError> {
+    let transmission = &centrodes.transmission;
+    let input = ContactInput {
+        driver: &driver.points,
+        follower: &follower.points,
+        center_distance: centrodes.center_distance,
+        module,
+        motion: &|phi| transmission.psi(phi),
+        motion_derivative: &|phi| transmission.derivative(phi),
+        driver_cycle: transmission.driver_period() * f64::from(teeth::cycle_periods(transmission)),
+    };
+    Ok(analyse(&input, &ContactOptions::default())?)
+}

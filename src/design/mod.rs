@@ -1,0 +1,186 @@
+//! The pipeline: two shapes in, a finished pair of gears out.
+
+mod attempt;
+mod options;
+mod record;
+
+pub use options::{BoreChoice, DesignError, DesignOptions, Scale, TeethStyle, ToothCount};
+pub use record::Record;
+
+use crate::assembly::{Assembly, Gear, PlacedGear};
+use crate::fit::{self, Fit, FittedGear, Objective};
+use crate::geometry::{self, Point};
+use crate::meshing::ContactAnalysis;
+use crate::outline::Shape;
+use crate::pitch::Centrodes;
+use crate::policy;
+use crate::solid::{Bore, fits};
+use crate::teeth::ToothedPair;
+use attempt::{Attempt, Settings};
+
+/// A finished pair of gears and everything that is known of it. Lengths in mm, angles in radians.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// Names of the two shapes.
+    pub names: [String; 2],
+    /// What the design was told.
+    pub options: DesignOptions,
+    /// The fit before its curves were rounded for teeth; lengths for centre distance 1.
+    pub fit: Fit,
+    /// The pitch curves that carry the teeth.
+    pub centrodes: Centrodes,
+    /// Teeth of driver and follower.
+    pub teeth: [u32; 2],
+    /// The toothed gears before clearance.
+    pub pair: ToothedPair,
+    /// The gears with clearance and bores, on their axes, with one cycle of motion.
+    pub assembly: Assembly,
+    /// Likeness of pitch curve and drawing, driver and follower: area of intersection over union.
+    pub likeness: [f64; 2],
+    /// Contact without clearance: the error of the teeth themselves.
+    pub exact_contact: ContactAnalysis,
+    /// Contact of the finished gears.
+    pub contact: ContactAnalysis,
+    /// What was done to make the pair work, in order.
+    pub steps: Vec<String>,
+    /// What deserves attention.
+    pub warnings: Vec<String>,
+    /// Why the pair must not be trusted; empty when it is sound.
+    pub faults: Vec<String>,
+}
+
+impl Design {
+    /// Whether the pair passed its own analysis.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.faults.is_empty()
+    }
+
+    /// E and its parts.
+    #[must_use]
+    pub fn objective(&self) -> &Objective {
+        &self.fit.objective
+    }
+}
+
+/// Designs a pair of gears from two shapes.
+///
+/// # Errors
+/// See [`DesignError`]. A pair that is made but fails its own analysis is returned with
+/// [`Design::faults`].
+pub fn design(
+    driver: &Shape,
+    follower: &Shape,
+    options: &DesignOptions,
+) -> Result<Design, DesignError> {
+    check(options)?;
+    let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
+    let mut steps = Vec::new();
+    let mut settings = Settings::first(&fit, options)?;
+    let mut best = Attempt::make(&fit, options, settings)?;
+    if options.repair {
+        for _ in 0..policy::REPAIRS {
+            if best.is_good() {
+                break;
+            }
+            let (next, said) = settings.gentler(&best);
+            settings = next;
+            let attempt = Attempt::make(&fit, options, settings)?;
+            if attempt.badness() < best.badness() {
+                steps.push(format!(
+                    "{said}: transmission error {:.2} % of a pitch instead of {:.2} %",
+                    100.0 * attempt.error_share(),
+                    100.0 * best.error_share()
+                ));
+                best = attempt;
+            }
+        }
+    }
+    best.finish([driver, follower], fit, options, steps)
+}
+
+fn check(options: &DesignOptions) -> Result<(), DesignError> {
+    let refuse = |name, value, remedy: String| Err(DesignError::Option { name, value, remedy });
+    let length = |name, value: f64| {
+        if value > 0.0 && value <= policy::LARGEST_LENGTH {
+            Ok(())
+        } else {
+            refuse(name, value, format!("give a length above 0 and up to {} mm", policy::LARGEST_LENGTH))
+        }
+    };
+    match options.scale {
+        Scale::CenterDistance(value) => length("the centre distance", value)?,
+        Scale::Extent(value) => length("the size", value)?,
+    }
+    length("the thickness", options.thickness)?;
+    for (name, value) in [
+        ("the clearance", options.clearance),
+        ("the backlash", options.backlash),
+        ("the root clearance", options.root_clearance.unwrap_or(0.0)),
+    ] {
+        if !(0.0..=policy::LARGEST_LENGTH).contains(&value) {
+            return refuse(name, value, "give a length of 0 or more".to_owned());
+        }
+    }
+    let degrees = options.pressure_angle.to_degrees();
+    if !(10.0..=35.0).contains(&degrees) {
+        return refuse("the pressure angle", degrees, "give 10 to 35 degrees".to_owned());
+    }
+    if !(0.2..=1.5).contains(&options.addendum) {
+        return refuse("the addendum", options.addendum, "give 0.2 to 1.5 modules".to_owned());
+    }
+    if let ToothCount::Teeth(count) = options.teeth {
+        let (least, most) = policy::TEETH_RANGE;
+        if !(least..=most).contains(&count) {
+            let remedy = format!("give {least} to {most} teeth");
+            return refuse("the number of teeth", f64::from(count), remedy);
+        }
+    }
+    Ok(())
+}
+
+/// The drawing as it lies on its gear: the fitted pose, scaled to the area of the pitch curve.
+fn placed_input(shape: &Shape, gear: &FittedGear, pitch_curve: &[Point]) -> Vec<Point> {
+    let placed: Vec<Point> = shape.raw.points().iter().map(|p| gear.placement.apply(*p)).collect();
+    let scale = (geometry::area(pitch_curve) / geometry::area(&placed)).sqrt();
+    placed.into_iter().map(|p| p * scale).collect()
+}
+
+fn bore_for(
+    choice: BoreChoice,
+    outline: &[Point],
+    warnings: &mut Vec<String>,
+    name: &str,
+) -> Result<Option<Vec<Point>>, DesignError> {
+    let tolerance = policy::BORE_CHORD_TOLERANCE;
+    match choice {
+        BoreChoice::Exactly(bore) => {
+            let polygon = bore.polygon(tolerance)?;
+            if let Some(hole) = &polygon {
+                fits(outline, hole, policy::BORE_WALL)?;
+            }
+            Ok(polygon)
+        }
+        BoreChoice::AtMost(diameter) => {
+            for share in [1.0, 0.8, 0.6, 0.4] {
+                let hole = Bore::Round { diameter: share * diameter }.polygon(tolerance)?;
+                if hole.as_ref().is_some_and(|h| fits(outline, h, policy::BORE_WALL).is_ok()) {
+                    if share < 1.0 {
+                        warnings.push(format!(
+                            "the bore of the {name} is {:.1} mm: a wider one leaves too thin a wall",
+                            share * diameter
+                        ));
+                    }
+                    return Ok(hole);
+                }
+            }
+            warnings.push(format!("the {name} has no bore: there is no room for one at its axis"));
+            Ok(None)
+        }
+    }
+}
+
+/// One gear on its axis.
+fn placed_gear(gear: Gear, axis: Point, angle: Vec<f64>) -> PlacedGear {
+    PlacedGear { gear, axis, angle }
+}

@@ -1,0 +1,195 @@
+//! `design.json`: what every run writes and other programs may rely on.
+
+use serde::Serialize;
+
+use super::Design;
+use crate::assembly::PlacedGear;
+use crate::geometry::Point;
+
+/// The record of one design; field order is the order in the file. Lengths mm, angles radians.
+#[derive(Debug, Serialize)]
+pub struct Record {
+    centrode: &'static str,
+    units: &'static str,
+    names: [String; 2],
+    ratio: f64,
+    center_distance: f64,
+    module: f64,
+    thickness: f64,
+    driver: GearRecord,
+    follower: GearRecord,
+    motion: Motion,
+    objective: ObjectiveRecord,
+    resemblance: Resemblance,
+    meshing: Meshing,
+    settings: Settings,
+}
+
+#[derive(Debug, Serialize)]
+struct GearRecord {
+    teeth: u32,
+    pitch_curve: Vec<[f64; 2]>,
+    outline: Vec<[f64; 2]>,
+    bore: Option<Vec<[f64; 2]>>,
+    input: Vec<[f64; 2]>,
+    rotation_center_in_input: [f64; 2],
+}
+
+#[derive(Debug, Serialize)]
+struct Motion {
+    driver_angle: Vec<f64>,
+    follower_angle: Vec<f64>,
+}
+
+#[derive(Debug, Serialize)]
+#[allow(non_snake_case, reason = "E is the name of the objective in the paper and in the file format")]
+struct ObjectiveRecord {
+    E: f64,
+    shape: f64,
+    torque: f64,
+    weight: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Resemblance {
+    driver_iou: f64,
+    follower_iou: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Meshing {
+    verdict: &'static str,
+    faults: Vec<String>,
+    warnings: Vec<String>,
+    steps: Vec<String>,
+    /// Without clearance, as fractions of a pitch.
+    transmission_error_median_deviation: Option<f64>,
+    transmission_error_p99: Option<f64>,
+    transmission_error_peak_to_peak: Option<f64>,
+    /// Of the finished gears.
+    lost_poses: usize,
+    poses: usize,
+    contact_ratio: f64,
+    max_interference: f64,
+    min_angular_backlash: Option<f64>,
+    max_angular_backlash: Option<f64>,
+    max_pressure_angle: Option<f64>,
+    max_lean: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Settings {
+    ratio: String,
+    search: String,
+    torque_weight: f64,
+    balance: f64,
+    max_torque: Option<f64>,
+    max_lean: f64,
+    teeth_style: String,
+    pressure_angle: f64,
+    addendum: f64,
+    clearance: f64,
+    backlash: f64,
+    root_clearance: Option<f64>,
+    chord_tolerance: f64,
+    bore: String,
+    repair: bool,
+}
+
+impl Record {
+    /// The record of a design.
+    #[must_use]
+    pub fn new(design: &Design) -> Self {
+        let options = &design.options;
+        let exact = design.exact_contact.summary.transmission_error_pitch.as_ref();
+        let summary = &design.contact.summary;
+        let gears = &design.assembly.gears;
+        let objective = design.objective();
+        Self {
+            centrode: env!("CARGO_PKG_VERSION"),
+            units: "mm",
+            names: design.names.clone(),
+            ratio: design.centrodes.transmission.ratio(),
+            center_distance: design.centrodes.center_distance,
+            module: design.pair.module,
+            thickness: design.assembly.thickness,
+            driver: gear_record(&gears[0], design.fit.driver.center_in_input),
+            follower: gear_record(&gears[1], design.fit.follower.center_in_input),
+            motion: Motion {
+                driver_angle: design.assembly.driver_angle.clone(),
+                follower_angle: gears[1].angle.iter().map(|a| 0.0 - a).collect(),
+            },
+            objective: ObjectiveRecord {
+                E: objective.total,
+                shape: objective.shape,
+                torque: objective.torque,
+                weight: objective.weight,
+            },
+            resemblance: Resemblance {
+                driver_iou: design.likeness[0],
+                follower_iou: design.likeness[1],
+            },
+            meshing: Meshing {
+                verdict: design.verdict(),
+                faults: design.faults.clone(),
+                warnings: design.warnings.clone(),
+                steps: design.steps.clone(),
+                transmission_error_median_deviation: exact.map(|e| e.median_deviation),
+                transmission_error_p99: exact.map(|e| e.p99_deviation),
+                transmission_error_peak_to_peak: exact.map(|e| e.peak_to_peak),
+                lost_poses: summary.lost_poses,
+                poses: design.contact.poses.len(),
+                contact_ratio: summary.contact_ratio,
+                max_interference: summary.max_interference.as_ref().map_or(0.0, |w| w.value),
+                min_angular_backlash: summary.min_backlash.as_ref().map(|w| w.value),
+                max_angular_backlash: summary.max_backlash.as_ref().map(|w| w.value),
+                max_pressure_angle: summary.max_pressure_angle.as_ref().map(|w| w.value),
+                max_lean: design.centrodes.max_lean(),
+            },
+            settings: Settings {
+                ratio: options.ratio.to_string(),
+                search: format!("{:?}", options.fit.search).to_lowercase(),
+                torque_weight: options.fit.weight,
+                balance: options.fit.balance,
+                max_torque: options.fit.limits.max_derivative,
+                max_lean: options.fit.limits.max_lean,
+                teeth_style: format!("{:?}", options.style).to_lowercase(),
+                pressure_angle: options.pressure_angle,
+                addendum: options.addendum,
+                clearance: options.clearance,
+                backlash: options.backlash,
+                root_clearance: options.root_clearance,
+                chord_tolerance: options.chord_tolerance,
+                bore: format!("{:?}", options.bore),
+                repair: options.repair,
+            },
+        }
+    }
+}
+
+impl Design {
+    /// One word for the outcome: `good`, `warnings` or `unsound`.
+    #[must_use]
+    pub fn verdict(&self) -> &'static str {
+        if !self.is_sound() {
+            "unsound"
+        } else if self.warnings.is_empty() {
+            "good"
+        } else {
+            "warnings"
+        }
+    }
+}
+
+fn gear_record(placed: &PlacedGear, center: Point) -> GearRecord {
+    let plain = |points: &[Point]| points.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
+    let gear = &placed.gear;
+    GearRecord {
+        teeth: gear.teeth,
+        pitch_curve: plain(&gear.pitch_curve),
+        outline: plain(&gear.outline),
+        bore: gear.bore.as_deref().map(plain),
+        input: plain(&gear.input),
+        rotation_center_in_input: [center.x, center.y],
+    }
+}
