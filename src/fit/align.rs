@@ -33,6 +33,15 @@ pub(super) struct LongSpectrum {
     energy: Vec<f64>,
 }
 
+impl LongSpectrum {
+    /// The window of `n` samples from `shift`, scaled to the mean `mean`.
+    pub(super) fn window(&self, shift: usize, n: usize, mean: f64) -> impl Iterator<Item = f64> {
+        let ring = self.law.iter().chain(&self.law).skip(shift).take(n);
+        let scale = n as f64 * mean / ring.clone().sum::<f64>();
+        ring.map(move |v| v * scale)
+    }
+}
+
 /// Buffers of one thread.
 pub(super) struct Scratch {
     product: Vec<Complex<f64>>,

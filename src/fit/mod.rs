@@ -1,10 +1,176 @@
 //! Choosing the motion from two shapes: objective, alignment, search for the
 //! rotation centres, and bounds that keep the pair drivable.
+//!
+//! [`fit`] is sections 4, 5.1 and 5.2 of the paper: each shape, turned about a
+//! centre, would impose a law psi'; the centres and the shift are chosen where the
+//! two laws differ least, and the pair gets the blend of both. Every length in a
+//! [`Fit`] is for a centre distance of 1.
 
 mod align;
+mod global_search;
 mod laws;
 mod limits;
+mod objective;
+mod paper_search;
+mod placement;
 mod ratio;
+mod refine;
 
 pub use limits::{LimitCost, LimitError, Limits, apply};
+pub use objective::Objective;
+pub use placement::{FittedGear, Similarity};
 pub use ratio::{Ratio, RatioError};
+
+use crate::outline::Outline;
+use crate::pitch::{PolarError, Transmission, TransmissionError};
+use crate::policy;
+
+/// How rotation centres are searched.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Search {
+    /// The paper's recursive 3 x 3 grid: J = 3, depth 3, 128 shifts.
+    Paper,
+    /// A dense grid of more than 50,000 pairs at every shift, then continuous refinement; never worse than `Paper`.
+    #[default]
+    Global,
+}
+
+/// What a fit can be told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitOptions {
+    /// How centres are searched.
+    pub search: Search,
+    /// t of Eq. 14 in 0..=1: 1 keeps the driver's shape, 0 the follower's.
+    pub balance: f64,
+    /// omega of Eq. 11, the weight of the greatest torque.
+    pub weight: f64,
+    /// Bounds on the blended law.
+    pub limits: Limits,
+    /// Samples of one period of psi' (the paper's N).
+    pub samples: usize,
+}
+
+impl Default for FitOptions {
+    fn default() -> Self {
+        Self {
+            search: Search::default(),
+            balance: 0.5,
+            weight: policy::DEFAULT_TORQUE_WEIGHT,
+            limits: Limits::default(),
+            samples: policy::DEFAULT_FIT_SAMPLES,
+        }
+    }
+}
+
+/// Why two shapes were not fitted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// t lies outside 0..=1.
+    #[error(
+        "a balance of {balance} has no meaning; give one from 0 (keep the follower's shape) to 1 (keep the driver's)"
+    )]
+    Balance {
+        /// Balance asked for.
+        balance: f64,
+    },
+    /// omega is negative or not finite.
+    #[error("a torque weight of {weight} has no meaning; give 0 or more, 0.2 as in the paper")]
+    Weight {
+        /// Weight asked for.
+        weight: f64,
+    },
+    /// Too few or too many samples.
+    #[error("{samples} samples of the law are out of range; give {least} to {most}")]
+    Samples {
+        /// Samples asked for.
+        samples: usize,
+        /// Least allowed.
+        least: usize,
+        /// Most allowed at this ratio.
+        most: usize,
+    },
+    /// No rotation centre inside a shape makes a pair.
+    #[error(
+        "no pair of rotation centres inside the shapes makes a law; use shapes that are less thin"
+    )]
+    NoCenter,
+    /// A shape cannot be seen from its centre.
+    #[error(transparent)]
+    Polar(#[from] PolarError),
+    /// The limits cannot be kept.
+    #[error(transparent)]
+    Limit(#[from] LimitError),
+    /// The bounded law is no transmission.
+    #[error(transparent)]
+    Transmission(#[from] TransmissionError),
+}
+
+/// Two shapes fitted to each other.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The pair's motion, limits kept. At driver angle 0 the driver's drawing stands upright.
+    pub transmission: Transmission,
+    /// Eq. 14 before limits: psi' at the driver angles of [`Transmission::samples`].
+    pub raw: Vec<f64>,
+    /// E and its parts.
+    pub objective: Objective,
+    /// What the limits changed.
+    pub limited: LimitCost,
+    /// The driver's drawing in its gear.
+    pub driver: FittedGear,
+    /// The follower's drawing in its gear.
+    pub follower: FittedGear,
+    /// Pairs of centres that were scored.
+    pub pairs_scored: usize,
+}
+
+/// Finds rotation centres in both shapes and the motion that changes the shapes least.
+///
+/// The drawings may have any unit and size; only their forms matter. The same input always gives the same result.
+///
+/// # Errors
+/// See [`FitError`].
+pub fn fit(
+    driver: &Outline,
+    follower: &Outline,
+    ratio: Ratio,
+    options: &FitOptions,
+) -> Result<Fit, FitError> {
+    check(ratio, options)?;
+    let shapes = (driver.points(), follower.points());
+    let problem = objective::Problem::new(
+        shapes,
+        ratio,
+        &options.limits,
+        (options.weight, options.balance),
+        options.samples,
+    );
+    // Impossible limits should be said at once, not found in every candidate.
+    let even = [1.0; policy::MIN_TRANSMISSION_SAMPLES];
+    apply(&even, problem.folds(), &options.limits)?;
+    let (winner, pairs_scored) = match options.search {
+        Search::Paper => paper_search::search(&problem),
+        Search::Global => global_search::search(&problem),
+    };
+    let winner = winner.ok_or(FitError::NoCenter)?;
+    placement::place(&problem, &winner, pairs_scored)
+}
+
+fn check(ratio: Ratio, options: &FitOptions) -> Result<(), FitError> {
+    let FitOptions { balance, weight, samples, .. } = *options;
+    if !(0.0..=1.0).contains(&balance) {
+        return Err(FitError::Balance { balance });
+    }
+    if !(weight >= 0.0 && weight.is_finite()) {
+        return Err(FitError::Weight { weight });
+    }
+    let windows = ratio.driver_fold().max(ratio.follower_fold()) as usize;
+    let (least, most) = (policy::FIT_SAMPLES_LEAST, policy::FIT_SAMPLES_MOST / windows);
+    if !(least..=most).contains(&samples) {
+        return Err(FitError::Samples { samples, least, most });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

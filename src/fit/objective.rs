@@ -1,0 +1,182 @@
+//! The objective E of Eq. 11 for one choice of centres and shift.
+
+use std::f64::consts::TAU;
+
+use super::laws::{Law, Role, directions};
+use super::limits::{LimitCost, Limits, apply};
+use super::{FitError, Ratio};
+use crate::geometry::{Point, Vector};
+use crate::pitch::PolarError;
+
+/// Rotation centres in the drawings' own coordinates, and the driver angle at which the long gear's window starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Candidate {
+    pub(super) driver: Point,
+    pub(super) follower: Point,
+    pub(super) shift: f64,
+}
+
+/// Two shapes and all that judging a pair of centres needs, at one resolution.
+pub(super) struct Problem<'a> {
+    pub(super) driver: &'a [Point],
+    pub(super) follower: &'a [Point],
+    pub(super) ratio: Ratio,
+    pub(super) limits: &'a Limits,
+    pub(super) weight: f64,
+    /// Weight of the driver's law in Eq. 14.
+    pub(super) balance: f64,
+    /// Samples of one period.
+    pub(super) samples: usize,
+    driver_rays: Vec<Vector>,
+    follower_rays: Vec<Vector>,
+}
+
+/// What a candidate is worth. `total` is what searches minimise.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Objective {
+    /// E: `shape + weight * torque + limiting_cost`. Where no limit bites it is Eq. 11.
+    pub total: f64,
+    /// E_s, Delta of Eq. 12 and 13: integral of the squared difference of both shapes' laws over the driver's turn.
+    pub shape: f64,
+    /// E_tau: greatest psi' of the law as delivered, limits kept.
+    pub torque: f64,
+    /// omega.
+    pub weight: f64,
+    /// Further change of shape by the limits, in the measure of E_s (see [`LimitCost::shape`]).
+    pub limiting_cost: f64,
+}
+
+/// A candidate worked out.
+pub(super) struct Scored {
+    pub(super) objective: Objective,
+    /// Eq. 14 before limits.
+    pub(super) blend: Vec<f64>,
+    pub(super) limited: Vec<f64>,
+    pub(super) cost: LimitCost,
+    pub(super) follower_law: Law,
+    pub(super) lost_area: (f64, f64),
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(
+        (driver, follower): (&'a [Point], &'a [Point]),
+        ratio: Ratio,
+        limits: &'a Limits,
+        (weight, balance): (f64, f64),
+        samples: usize,
+    ) -> Self {
+        let rays = |fold: u32| directions(samples * fold as usize);
+        Self {
+            driver,
+            follower,
+            ratio,
+            limits,
+            weight,
+            balance,
+            samples,
+            driver_rays: rays(ratio.driver_fold()),
+            follower_rays: rays(ratio.follower_fold()),
+        }
+    }
+
+    /// The same at another resolution, on (perhaps simplified) outlines.
+    pub(super) fn resampled(
+        &self,
+        shapes: (&'a [Point], &'a [Point]),
+        samples: usize,
+    ) -> Problem<'a> {
+        Problem::new(shapes, self.ratio, self.limits, (self.weight, self.balance), samples)
+    }
+
+    /// Periods in the long gear's turn.
+    pub(super) fn windows(&self) -> usize {
+        self.ratio.driver_fold().max(self.ratio.follower_fold()) as usize
+    }
+
+    /// Which gear turns once a period.
+    pub(super) fn short_role(&self) -> Role {
+        if self.ratio.driver_fold() == 1 { Role::Driver } else { Role::Follower }
+    }
+
+    /// Driver angle of one sample step.
+    pub(super) fn step(&self) -> f64 {
+        TAU / f64::from(self.ratio.driver_fold()) / self.samples as f64
+    }
+
+    pub(super) fn folds(&self) -> (u32, u32) {
+        (self.ratio.driver_fold(), self.ratio.follower_fold())
+    }
+
+    pub(super) fn law(&self, role: Role, center: Point) -> Result<Law, PolarError> {
+        let (points, rays) = match role {
+            Role::Driver => (self.driver, &self.driver_rays),
+            Role::Follower => (self.follower, &self.follower_rays),
+        };
+        Law::new(points, center, rays, role, self.ratio)
+    }
+
+    /// Samples of psi' over the gear's whole turn.
+    pub(super) fn whole_turn(&self, role: Role, center: Point) -> Result<Vec<f64>, PolarError> {
+        let fold = if role == self.short_role() { 1 } else { self.windows() };
+        let n = self.samples * fold;
+        Ok(self.law(role, center)?.sample(0.0, n, n))
+    }
+
+    /// Eq. 14 on samples of the short law and the (scaled) window of the long one.
+    pub(super) fn blend(&self, short: &[f64], window: impl Iterator<Item = f64>) -> Vec<f64> {
+        let share =
+            if self.short_role() == Role::Driver { self.balance } else { 1.0 - self.balance };
+        short.iter().zip(window).map(|(a, b)| share * a + (1.0 - share) * b).collect()
+    }
+
+    /// Works a candidate out.
+    pub(super) fn score(&self, candidate: &Candidate) -> Result<Scored, FitError> {
+        let driver = self.law(Role::Driver, candidate.driver)?;
+        let follower = self.law(Role::Follower, candidate.follower)?;
+        let n = self.samples;
+        let whole = n * self.windows();
+        let mean = 1.0 / self.ratio.value();
+        let (short, long) = if self.short_role() == Role::Driver {
+            (&driver, &follower)
+        } else {
+            (&follower, &driver)
+        };
+        let short = closed(short.sample(0.0, n, n), mean);
+        let window = closed(long.sample(candidate.shift, n, whole), mean);
+        let delta =
+            short.iter().zip(&window).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() * TAU / n as f64;
+        let blend = self.blend(&short, window.into_iter());
+        let (limited, cost) = apply(&blend, self.folds(), self.limits)?;
+        Ok(Scored {
+            objective: self.objective(delta, &cost),
+            blend,
+            limited,
+            cost,
+            lost_area: (driver.lost_area, follower.lost_area),
+            follower_law: follower,
+        })
+    }
+
+    /// E of a candidate; infinite for one that makes no pair.
+    pub(super) fn total(&self, candidate: &Candidate) -> f64 {
+        self.score(candidate).map_or(f64::INFINITY, |s| s.objective.total)
+    }
+
+    pub(super) fn objective(&self, shape: f64, cost: &LimitCost) -> Objective {
+        let torque = cost.derivative.1;
+        let total = shape + self.weight * torque + cost.shape;
+        Objective { total, shape, torque, weight: self.weight, limiting_cost: cost.shape }
+    }
+}
+
+/// The samples scaled to a mean.
+fn closed(mut samples: Vec<f64>, mean: f64) -> Vec<f64> {
+    let scale = mean * samples.len() as f64 / samples.iter().sum::<f64>();
+    samples.iter_mut().for_each(|v| *v *= scale);
+    samples
+}
+
+/// Greatest value of a list.
+pub(super) fn greatest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+}
