@@ -35,7 +35,7 @@
     return { low, high, part: Math.min(1, Math.max(0, part)) };
   };
   const between = (a, b, part) => a + (b - a) * part;
-  const withMinus = (text) => text.replace("-", "−");
+  const withMinus = (text) => (Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−"));
 
   const plots = all("[data-plot]").map((figure) => {
     const plot = data.plots[Number(figure.dataset.plot)];
@@ -134,7 +134,7 @@
     show();
   };
 
-  slider.max = String(cycle / DEGREE);
+  slider.max = (cycle / DEGREE).toFixed(2);
   slider.addEventListener("input", () => goTo(Number(slider.value) * DEGREE));
   play.addEventListener("click", () => setPlaying(!playing));
   document.addEventListener("keydown", (event) => {
