@@ -135,6 +135,9 @@ pub const POINT_FILE_BYTES: usize = 16 << 20;
 /// Largest SVG text, bytes. An SVG grows when it is read; this keeps its tree below a few hundred MB.
 pub const SVG_BYTES: usize = 16 << 20;
 
+/// Most attributes of one XML element: the parser compares each with all others.
+pub const SVG_ATTRIBUTES: usize = 1000;
+
 /// Most elements of an SVG after every `use` has been expanded. Larger means slow reading and
 /// nothing a gear could show; a handful of nested `use` lines can ask for billions.
 pub const SVG_ELEMENTS: u64 = 100_000;
@@ -166,13 +169,17 @@ pub const OPEN_PATH_GAP: f64 = 0.01;
 /// taken for its background.
 pub const BACKGROUND_SLACK: f64 = 0.01;
 
+/// Smallest diagonal and largest coordinate of an outline, in its unit. Beyond them squares of
+/// lengths lose digits and the boolean library gives up.
+pub const OUTLINE_RANGE: (f64, f64) = (1e-9, 1e9);
+
 /// Most vertices an outline may be given; more is a scan or a mistake and is refused.
 pub const OUTLINE_VERTICES: usize = 200_000;
 
 /// Above this many vertices an outline is simplified: gears use about 2,000.
 pub const OUTLINE_VERTICES_KEPT: usize = 20_000;
 
-/// First and last tolerance, relative to the diagonal, at which an outline with too many
+/// First and last tolerance, relative to the bounding box's shorter side, at which an outline with too many
 /// vertices is simplified; it doubles in between. The last is about the smallest printed detail.
 pub const SIMPLIFY_TOLERANCE: (f64, f64) = (1e-5, 1e-3);
 

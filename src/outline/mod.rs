@@ -23,6 +23,7 @@ pub use smooth::{Smoothing, resample, smooth};
 pub use svg::{SvgError, from_svg};
 
 use crate::geometry::{self, Point};
+use crate::policy;
 
 /// A closed, simple, counter-clockwise polygon.
 ///
@@ -46,6 +47,14 @@ pub enum OutlineError {
     NotFinite {
         /// Index of the point, from zero.
         index: usize,
+    },
+    /// A coordinate is too large to compute with.
+    #[error("a coordinate of the outline reaches {largest:e}, beyond {limit:e}; scale it down")]
+    OutOfRange {
+        /// The largest magnitude found.
+        largest: f64,
+        /// The largest that is accepted, [`crate::policy::OUTLINE_RANGE`].
+        limit: f64,
     },
     /// Two edges meet away from their ends.
     #[error("the outline crosses itself at ({x:.4}, {y:.4}); redraw it there")]
@@ -71,15 +80,23 @@ pub enum OutlineError {
     TooIntricate,
 }
 
+/// Refuses coordinates that are not finite or too large.
+fn check_coordinates(points: &[Point]) -> Result<(), OutlineError> {
+    if let Some(index) = points.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+        return Err(OutlineError::NotFinite { index });
+    }
+    let largest = points.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
+    let limit = policy::OUTLINE_RANGE.1;
+    if largest > limit { Err(OutlineError::OutOfRange { largest, limit }) } else { Ok(()) }
+}
+
 impl Outline {
     /// Checks `points`, drops repeated ones and turns the boundary counter-clockwise.
     ///
     /// # Errors
     /// See [`OutlineError`].
     pub fn new(points: Vec<Point>) -> Result<Self, OutlineError> {
-        if let Some(index) = points.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
-            return Err(OutlineError::NotFinite { index });
-        }
+        check_coordinates(&points)?;
         let mut points = points;
         points.dedup();
         while points.len() > 1 && points.first() == points.last() {
@@ -90,7 +107,7 @@ impl Outline {
         }
         let signed = geometry::signed_area(&points);
         let size = geometry::perimeter(&points);
-        if signed.abs() < 1e-9 * size * size {
+        if size < policy::OUTLINE_RANGE.0 || signed.abs() < 1e-9 * size * size {
             return Err(OutlineError::NoArea);
         }
         if let Some(p) = geometry::first_self_crossing(&points) {

@@ -191,6 +191,9 @@ mod tests {
         assert_eq!(of("0,0\n1,1\n0,0"), few(2));
         assert_eq!(of(""), few(0));
         assert_eq!(of("0,0\n1,1\n2,2\n"), PointsError::Outline(OutlineError::NoArea));
+        assert_eq!(of("1e-310,0\n0,1e-310\n0,0\n"), PointsError::Outline(OutlineError::NoArea));
+        let far = of("1e308,1e308\n-1e308,-1e308\n1e308,-1e308\n");
+        assert!(matches!(far, PointsError::Outline(OutlineError::OutOfRange { .. })));
         let crossing = PointsError::Outline(OutlineError::SelfCrossing { x: 1.0, y: 1.0 });
         assert_eq!(of("0,0\n2,2\n2,0\n0,2\n"), crossing);
         assert_eq!(from_columns(b"\xff\xfe1,2").unwrap_err(), PointsError::NotText);

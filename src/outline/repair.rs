@@ -1,7 +1,7 @@
 //! Unions of filled contours, and simple outlines out of self-crossing ones.
 
 use super::simplify::bounded;
-use super::{Outline, OutlineError};
+use super::{Outline, OutlineError, check_coordinates};
 use crate::geometry::{self, Point, cross};
 use crate::policy;
 use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
@@ -22,9 +22,7 @@ pub(super) type Ring = Vec<[f64; 2]>;
 /// [`OutlineError::SelfCrossing`] with the first crossing when too much would be lost,
 /// otherwise as [`Outline::new`].
 pub fn repaired(points: Vec<Point>) -> Result<Outline, OutlineError> {
-    if let Some(index) = points.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
-        return Err(OutlineError::NotFinite { index });
-    }
+    check_coordinates(&points)?;
     let points = bounded(points)?;
     let crossings = count_crossings(&[&points])?;
     let failure = match Outline::new(points.clone()) {

@@ -137,6 +137,7 @@ fn other_and_damaged_files_are_refused() {
     for length in [9, 20, 40, whole.len() / 2] {
         let error = from_image(&whole[..length], None).unwrap_err();
         assert!(matches!(error, ImageError::Damaged { .. }), "{length}: {error:?}");
+        assert!(!error.to_string().contains(char::is_control), "{error}");
     }
 }
 

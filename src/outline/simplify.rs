@@ -61,10 +61,10 @@ pub(super) fn bounded(points: Vec<Point>) -> Result<Vec<Point>, OutlineError> {
         return Ok(points);
     }
     let (low, high) = geometry::bounds(&points);
-    let diagonal = (high - low).norm();
+    let side = (high - low).min();
     let (mut tolerance, last) = policy::SIMPLIFY_TOLERANCE;
     while tolerance <= last {
-        let fewer = simplify(&points, tolerance * diagonal);
+        let fewer = simplify(&points, tolerance * side);
         if fewer.len() <= policy::OUTLINE_VERTICES_KEPT {
             return Ok(fewer);
         }

@@ -3,7 +3,7 @@
 use super::repair::{
     Ring, count_crossings, filled_parts, joined, ring_area, simple, to_points, to_ring,
 };
-use super::{Outline, OutlineError, simplify, svg_guard};
+use super::{Outline, OutlineError, check_coordinates, simplify, svg_guard};
 use crate::geometry::{self, Point};
 use crate::policy;
 use i_overlay::core::fill_rule::FillRule;
@@ -165,9 +165,10 @@ fn outline_of(paths: &[&usvg::Path], canvas: Point, tolerance: f64) -> Result<Ou
         })
         .map(|(x, y)| Point::new(f64::from(x), f64::from(y)))
         .collect();
+    check_coordinates(&corners)?;
     let (low, high) = geometry::bounds(&corners);
     let diagonal = (high - low).norm();
-    if !(diagonal.is_finite() && diagonal > 0.0) {
+    if diagonal < policy::OUTLINE_RANGE.0 {
         return Err(OutlineError::NoArea.into());
     }
     let step = tolerance.clamp(1e-6, 0.1) * diagonal;

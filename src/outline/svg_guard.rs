@@ -22,6 +22,9 @@ pub(super) fn checked(text: &[u8]) -> Result<Document<'_>, SvgError> {
     let text = std::str::from_utf8(text).map_err(|_| SvgError::NotText)?;
     let text = text.trim_start_matches('\u{feff}');
     let too_many = SvgError::TooManyElements { limit: policy::SVG_ELEMENTS };
+    if most_attributes(text) > policy::SVG_ATTRIBUTES {
+        return Err(too_many);
+    }
     // Text and attribute-free nodes count too, so leave some room above the elements.
     let limit = u32::try_from(4 * policy::SVG_ELEMENTS).unwrap_or(u32::MAX);
     let options = ParsingOptions { allow_dtd: true, nodes_limit: limit, entity_resolver: None };
@@ -44,6 +47,36 @@ pub(super) fn checked(text: &[u8]) -> Result<Document<'_>, SvgError> {
         return Err(too_many);
     }
     Ok(document)
+}
+
+/// The largest number of quoted values between one `<` and its `>`. Comments and declarations
+/// are passed over as far as their first `>`.
+fn most_attributes(text: &str) -> usize {
+    let (mut most, mut count) = (0, 0);
+    let mut in_tag = false;
+    let mut quote = None;
+    let bytes = text.as_bytes();
+    for (i, &byte) in bytes.iter().enumerate() {
+        if let Some(open) = quote {
+            if byte == open {
+                quote = None;
+            }
+        } else if in_tag {
+            match byte {
+                b'"' | b'\'' => {
+                    quote = Some(byte);
+                    count += 1;
+                    most = most.max(count);
+                }
+                b'>' => in_tag = false,
+                _ => {}
+            }
+        } else if byte == b'<' && !matches!(bytes.get(i + 1), Some(b'!' | b'?')) {
+            in_tag = true;
+            count = 0;
+        }
+    }
+    most
 }
 
 fn style_rules(document: &Document) -> u64 {

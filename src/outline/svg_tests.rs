@@ -232,3 +232,16 @@ fn entities_markers_and_patterns_cannot_multiply() {
     near(area(&body), 81.0, 1e-6);
     assert!(start.elapsed().as_secs_f64() < 2.0);
 }
+
+#[test]
+fn coordinates_and_attributes_beyond_reason_are_refused() {
+    let far = r#"<path transform="scale(1e12)" d="M0 0H9V9Z"/>"#;
+    assert!(matches!(
+        read(far).unwrap_err(),
+        SvgError::Outline(OutlineError::OutOfRange { .. }) | SvgError::NothingFilled
+    ));
+    let attributes: String = (0..60_000).map(|i| format!(" a{i}='1'")).collect();
+    let error = refused_quickly(&format!("<rect width='9' height='9'{attributes}/>"));
+    assert!(matches!(error, SvgError::TooManyElements { .. }));
+    near(area("<!-- don't count --><rect width='9' height='9'/>"), 81.0, 1e-6);
+}
