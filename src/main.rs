@@ -1,2 +1,22 @@
-//! The `centrode` command.
-fn main() {}
+//! The `centrode` command: parse, run, report one error in one place.
+
+mod cli;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use cli::Cli;
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return cli::refused(&error),
+    };
+    match cli::run(cli) {
+        Ok(outcome) => outcome.exit_code(),
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(cli::BAD_INPUT)
+        }
+    }
+}

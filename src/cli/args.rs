@@ -126,6 +126,9 @@ pub(crate) struct TeethArgs {
     /// Extra depth of the roots below a mating tip [default: 0.25 module]
     #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero)]
     pub(crate) root_clearance: Option<f64>,
+    /// Largest distance between a flank and its chords, in modules [default: 0.0002]
+    #[arg(long, value_name = "MODULES", value_parser = units::positive)]
+    pub(crate) chord_tolerance: Option<f64>,
     /// Cut the follower with the exact sweep, or literally as solids with Manifold (slow)
     #[arg(long, value_enum, default_value_t = CarverArg::Sweep)]
     pub(crate) carve_with: CarverArg,
@@ -150,9 +153,9 @@ pub(crate) struct SizeArgs {
     /// Thickness of the gears
     #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length)]
     pub(crate) thickness: f64,
-    /// Hole for the axle: a diameter, lego, or none
-    #[arg(long, default_value = "5mm", value_name = "BORE", value_parser = units::bore)]
-    pub(crate) bore: Bore,
+    /// Hole for the axle: a diameter, lego, or none [default: 5mm, or less where there is no room]
+    #[arg(long, value_name = "BORE", value_parser = units::bore)]
+    pub(crate) bore: Option<Bore>,
 }
 
 /// How to look for the axes.

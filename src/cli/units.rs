@@ -87,7 +87,7 @@ pub(crate) fn fraction(text: &str) -> Result<f64, String> {
 pub(crate) fn bore(text: &str) -> Result<Bore, String> {
     match text {
         "none" => Ok(Bore::None),
-        "lego" => Ok(Bore::lego()),
+        "lego" => Ok(Bore::Lego { play: centrode::policy::LEGO_AXLE_PLAY }),
         _ => positive_length(text).map(|diameter| Bore::Round { diameter }).map_err(|_| {
             format!("'{text}' is not a bore; write none, lego, or a diameter such as 5mm")
         }),

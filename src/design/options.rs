@@ -75,6 +75,8 @@ pub struct DesignOptions {
     pub thickness: f64,
     /// Hole for the axle.
     pub bore: BoreChoice,
+    /// Carve the follower literally, as solids (paper, Figure 7), instead of along the exact envelope.
+    pub carve_with_solids: bool,
     /// Whether gentler settings may be tried when the first pair is not good.
     pub repair: bool,
 }
@@ -100,6 +102,7 @@ impl DesignOptions {
             scale: Scale::CenterDistance(80.0),
             thickness: 8.0,
             bore: BoreChoice::AtMost(5.0),
+            carve_with_solids: false,
             repair: true,
         }
     }

@@ -1,0 +1,128 @@
+//! `centrode design`: from the command line to a folder of files.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::bail;
+use centrode::design::{
+    BoreChoice, Design, DesignOptions, Record, Scale, TeethStyle, ToothCount, design,
+};
+use centrode::export::{
+    Export, Obj, Parts, Stl, prepare_folder, write_atomically, write_json,
+};
+use centrode::fit::{FitOptions, Limits, Ratio, Search};
+use centrode::outline::{LoadOptions, Shape, Smoothing, load};
+use centrode::report::{PictureOptions, pair_svg, report_html};
+use centrode::solid::{Mesh, assembly_solids};
+
+use super::args::{CarverArg, DesignArgs, SearchArg, StyleArg};
+use super::progress::Progress;
+use super::{Outcome, report};
+
+pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
+    let start = Instant::now();
+    let options = options(args)?;
+    prepare_folder(&args.output)?;
+    let progress = Progress::new();
+    progress.doing("reading the shapes");
+    let [driver, follower] = read(args)?;
+    progress.doing(format!("fitting {} to {}", driver.name, follower.name));
+    let made = design(&driver, &follower, &options)?;
+    if !made.is_sound() && !args.teeth.force {
+        progress.done();
+        bail_unsound(&made, args)?;
+    }
+    progress.doing("making solids");
+    let meshes = assembly_solids(&made.assembly)?;
+    progress.doing("writing files");
+    let files = write(&made, &meshes, args)?;
+    progress.done();
+    report::summary(&made, &files, &args.output, start.elapsed(), args.json)?;
+    Ok(if made.is_sound() { Outcome::Good } else { Outcome::NotSound })
+}
+
+fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
+    let ratio: Ratio = args.ratio.parse()?;
+    let defaults = DesignOptions::new(ratio);
+    Ok(DesignOptions {
+        fit: FitOptions {
+            search: match args.fit.search {
+                SearchArg::Global => Search::Global,
+                SearchArg::Paper => Search::Paper,
+            },
+            balance: args.fit.balance,
+            weight: args.fit.torque_weight,
+            limits: Limits {
+                max_derivative: args.fit.max_torque,
+                max_lean: args.fit.max_lean,
+                max_curvature: None,
+            },
+            ..defaults.fit
+        },
+        teeth: match (args.teeth.teeth, args.teeth.module) {
+            (Some(count), _) => ToothCount::Teeth(count),
+            (None, Some(module)) => ToothCount::Module(module),
+            (None, None) => ToothCount::Auto,
+        },
+        style: match args.teeth.teeth_style {
+            StyleArg::Involute => TeethStyle::Involute,
+            StyleArg::Wave => TeethStyle::Wave,
+        },
+        carve_with_solids: args.teeth.carve_with == CarverArg::Manifold,
+        pressure_angle: args.teeth.pressure_angle,
+        addendum: args.teeth.addendum,
+        clearance: args.teeth.clearance,
+        backlash: args.teeth.backlash,
+        root_clearance: args.teeth.root_clearance,
+        chord_tolerance: args.teeth.chord_tolerance.unwrap_or(defaults.chord_tolerance),
+        scale: match args.size.size {
+            Some(extent) => Scale::Extent(extent),
+            None => Scale::CenterDistance(args.size.center_distance),
+        },
+        thickness: args.size.thickness,
+        bore: match args.size.bore {
+            Some(bore) => BoreChoice::Exactly(bore),
+            None => defaults.bore,
+        },
+        repair: !args.teeth.strict,
+        ..defaults
+    })
+}
+
+fn read(args: &DesignArgs) -> anyhow::Result<[Shape; 2]> {
+    let options = LoadOptions {
+        threshold: args.shape.threshold,
+        smoothing: args.shape.smoothing.map_or(Smoothing::Auto, Smoothing::Fixed),
+        ..LoadOptions::default()
+    };
+    Ok([load(&args.driver, &options)?, load(&args.follower, &options)?])
+}
+
+fn bail_unsound(made: &Design, args: &DesignArgs) -> anyhow::Result<()> {
+    let hint = if args.teeth.strict { "without --strict gentler settings are tried" } else { "--force writes the files all the same" };
+    bail!("{} and {} do not make a sound pair: {} ({hint})", made.names[0], made.names[1], made.faults.join("; "))
+}
+
+fn write(made: &Design, meshes: &[Mesh], args: &DesignArgs) -> anyhow::Result<Vec<PathBuf>> {
+    let folder: &Path = &args.output;
+    let parts = Parts { assembly: &made.assembly, meshes };
+    let formats: [&dyn Export; 2] = [&Stl, &Obj];
+    let mut files = Vec::new();
+    for format in formats {
+        files.extend(format.write(parts, folder)?);
+    }
+    let texts = [
+        ("pair.svg", pair_svg(&made.assembly, &PictureOptions::default())),
+        ("report.html", report_html(&made.assembly, &report::page(made))),
+    ];
+    for (name, text) in texts {
+        let path = folder.join(name);
+        write_atomically(&path, |out| std::io::Write::write_all(out, text.as_bytes()))?;
+        files.push(path);
+    }
+    // Last, so that a folder with a record is a folder that is complete.
+    let path = folder.join("design.json");
+    write_json(&path, &Record::new(made))?;
+    files.push(path);
+    Ok(files)
+}

@@ -1,0 +1,192 @@
+//! What a person is told of a design: a few lines at the end, and the page.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use centrode::design::Design;
+use centrode::report::{Note, NoteKind, Plot, ReportData, Section, Verdict};
+use serde_json::json;
+
+/// Samples of a curve on the page.
+const PLOT_SAMPLES: usize = 721;
+
+/// Prints the summary: JSON on standard output, or a few lines for a person.
+pub(crate) fn summary(
+    made: &Design,
+    files: &[PathBuf],
+    folder: &Path,
+    elapsed: Duration,
+    as_json: bool,
+) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    let objective = made.objective();
+    let contact = &made.contact.summary;
+    let error = made.exact_contact.summary.transmission_error_pitch.as_ref();
+    if as_json {
+        let value = json!({
+            "folder": folder,
+            "files": files,
+            "verdict": made.verdict(),
+            "faults": made.faults,
+            "warnings": made.warnings,
+            "steps": made.steps,
+            "teeth": made.teeth,
+            "module": made.pair.module,
+            "center_distance": made.centrodes.center_distance,
+            "objective": {
+                "E": objective.total,
+                "shape": objective.shape,
+                "torque": objective.torque,
+                "weight": objective.weight,
+            },
+            "resemblance": made.likeness,
+            "transmission_error_p99": error.map(|e| e.p99_deviation),
+            "lost_poses": contact.lost_poses,
+            "contact_ratio": contact.contact_ratio,
+            "seconds": elapsed.as_secs_f64(),
+        });
+        writeln!(out, "{value}")?;
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "{} and {}: {} and {} teeth, module {:.3} mm, axes {:.2} mm apart",
+        made.names[0],
+        made.names[1],
+        made.teeth[0],
+        made.teeth[1],
+        made.pair.module,
+        made.centrodes.center_distance
+    )?;
+    writeln!(
+        out,
+        "likeness {:.1} % and {:.1} %, E {:.3} (shape {:.3}, torque up to {:.2} times the load)",
+        100.0 * made.likeness[0],
+        100.0 * made.likeness[1],
+        objective.total,
+        objective.shape,
+        made.centrodes.transmission.max_derivative()
+    )?;
+    if let Some(error) = error {
+        writeln!(
+            out,
+            "contact ratio {:.2}, transmission error {:.3} % of a pitch (99th percentile), contact lost at {} of {} poses",
+            contact.contact_ratio,
+            100.0 * error.p99_deviation,
+            contact.lost_poses,
+            made.contact.poses.len()
+        )?;
+    }
+    for step in &made.steps {
+        writeln!(out, "step: {step}")?;
+    }
+    for warning in &made.warnings {
+        writeln!(out, "warning: {warning}")?;
+    }
+    for fault in &made.faults {
+        writeln!(out, "not sound: {fault}")?;
+    }
+    writeln!(out, "{} files in {} after {:.1} s", files.len(), folder.display(), elapsed.as_secs_f64())?;
+    writeln!(out, "open {}", folder.join("report.html").display())?;
+    Ok(())
+}
+
+/// The page's text and plots.
+pub(crate) fn page(made: &Design) -> ReportData {
+    let verdict = match (made.is_sound(), made.warnings.is_empty()) {
+        (false, _) => Verdict::Unsound,
+        (true, true) => Verdict::Good,
+        (true, false) => Verdict::Warnings,
+    };
+    let summary = match verdict {
+        Verdict::Good => "Contact is never lost and nothing overlaps through the whole cycle.".to_owned(),
+        Verdict::Warnings => made.warnings.join(" "),
+        Verdict::Unsound => made.faults.join(" "),
+    };
+    let notes = made
+        .steps
+        .iter()
+        .map(|text| (NoteKind::Step, text))
+        .chain(made.warnings.iter().map(|text| (NoteKind::Warning, text)))
+        .chain(made.faults.iter().map(|text| (NoteKind::Fault, text)))
+        .map(|(kind, text)| Note::new(kind, text.as_str()))
+        .collect();
+    ReportData {
+        title: format!("{} and {}", made.names[0], made.names[1]),
+        command: String::new(),
+        made_by: concat!("centrode ", env!("CARGO_PKG_VERSION")).to_owned(),
+        verdict,
+        summary,
+        sections: sections(made),
+        plots: plots(made),
+        notes,
+    }
+}
+
+fn sections(made: &Design) -> Vec<Section> {
+    let objective = made.objective();
+    let contact = &made.contact.summary;
+    let transmission = &made.centrodes.transmission;
+    let percent = |v: f64| format!("{:.1} %", 100.0 * v);
+    let degrees = |v: f64| format!("{:.2}°", v.to_degrees());
+    let mut gears = Section::new("Gears")
+        .row("Teeth", format!("{} and {}", made.teeth[0], made.teeth[1]))
+        .row("Module", format!("{:.3} mm", made.pair.module))
+        .row("Centre distance", format!("{:.3} mm", made.centrodes.center_distance))
+        .row("Thickness", format!("{:.2} mm", made.assembly.thickness))
+        .noted_row("Clearance", format!("{:.3} mm", made.options.clearance), "inward offset of every face, per gear");
+    if let (Some(least), Some(most)) = (&contact.min_backlash, &contact.max_backlash) {
+        gears = gears.noted_row(
+            "Angular backlash",
+            format!("{} to {}", degrees(least.value), degrees(most.value)),
+            "of the follower, over the cycle",
+        );
+    }
+    let fit = Section::new("Fit")
+        .noted_row("Likeness of the driver", percent(made.likeness[0]), "area of intersection over union")
+        .noted_row("Likeness of the follower", percent(made.likeness[1]), "area of intersection over union")
+        .row("E", format!("{:.4}", objective.total))
+        .noted_row("E_s", format!("{:.4}", objective.shape), "change of shape, Eq. 12")
+        .noted_row("E_tau", format!("{:.4}", objective.torque), "greatest driver torque over the follower's")
+        .noted_row("Steepest lean", degrees(made.centrodes.max_lean()), "pitch-curve normal against radius")
+        .row("psi'", format!("{:.3} to {:.3}", transmission.min_derivative(), transmission.max_derivative()));
+    let mut mesh = Section::new("Mesh")
+        .noted_row("Contact ratio", format!("{:.2}", contact.contact_ratio), "teeth in contact, mean")
+        .row("Contact lost", format!("at {} of {} poses", contact.lost_poses, made.contact.poses.len()));
+    if let Some(error) = &made.exact_contact.summary.transmission_error_pitch {
+        mesh = mesh.noted_row(
+            "Transmission error",
+            format!("{:.4} % median, {:.3} % 99th percentile", 100.0 * error.median_deviation, 100.0 * error.p99_deviation),
+            "of a pitch, without clearance",
+        );
+    }
+    if let Some(worst) = &contact.max_pressure_angle {
+        mesh = mesh.row("Largest pressure angle", degrees(worst.value));
+    }
+    vec![gears, fit, mesh]
+}
+
+fn plots(made: &Design) -> Vec<Plot> {
+    let transmission = &made.centrodes.transmission;
+    let cycle = made.assembly.driver_angle.last().copied().unwrap_or(0.0);
+    let sampled = |f: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
+        (0..PLOT_SAMPLES)
+            .map(|i| cycle * i as f64 / (PLOT_SAMPLES - 1) as f64)
+            .map(|phi| (phi, f(phi)))
+            .collect()
+    };
+    let error = made.contact.poses.iter().map(|p| (p.driver_angle, p.transmission_error.to_degrees()));
+    let teeth = made.contact.poses.iter().map(|p| (p.driver_angle, p.contacts.len() as f64));
+    vec![
+        Plot::over_driver_angle("Transmission function psi", "follower angle, °")
+            .series("psi", sampled(&|phi| transmission.psi(phi).to_degrees())),
+        Plot::over_driver_angle("Its derivative psi': driver torque over load", "psi'")
+            .series("psi'", sampled(&|phi| transmission.derivative(phi))),
+        Plot::over_driver_angle("Transmission error under load, with clearance", "follower lag, °")
+            .series("error", error.collect()),
+        Plot::over_driver_angle("Teeth in contact", "number").series("teeth", teeth.collect()),
+        Plot::over_driver_angle("Lean of the pitch curves", "°")
+            .series("lean", sampled(&|phi| made.centrodes.lean(phi).to_degrees())),
+    ]
+}
