@@ -42,3 +42,16 @@ pub const LEGO_AXLE_FILLET: f64 = 0.3;
 
 /// Default play of a Lego axle in its hole, mm per side: a snug fit off an ordinary printer.
 pub const LEGO_AXLE_PLAY: f64 = 0.1;
+
+// Files
+
+/// Default time the driver takes for one turn in an animation, s: slow enough to watch teeth mesh.
+pub const SECONDS_PER_DRIVER_TURN: f64 = 6.0;
+
+/// How far an animation may be from the motion between its keys, radians (0.01 degrees): 0.01 mm
+/// at the rim of an 80 mm gear, well under a pixel. Smaller only makes more keys.
+pub const ANIMATION_ANGLE_ERROR: f64 = 0.01 * std::f64::consts::PI / 180.0;
+
+/// Largest turn between two keys, radians (60 degrees). Viewers take the short way round, so it
+/// must stay well below a half turn.
+pub const ANIMATION_LONGEST_STEP: f64 = std::f64::consts::PI / 3.0;
