@@ -439,3 +439,16 @@ pub const FIT_SAMPLES_MOST: usize = 1 << 18;
 pub const PLACEMENT_SAMPLES: usize = 1024;
 /// How far, radians, a follower's drawing may swing from the angle of the fit to overlay its pitch curve best.
 pub const PLACEMENT_SWING: f64 = 0.25;
+
+// Files
+
+/// Default time the driver takes for one turn in an animation, s: slow enough to watch teeth mesh.
+pub const SECONDS_PER_DRIVER_TURN: f64 = 6.0;
+
+/// How far an animation may be from the motion between its keys, radians (0.01 degrees): 0.01 mm
+/// at the rim of an 80 mm gear, well under a pixel. Smaller only makes more keys.
+pub const ANIMATION_ANGLE_ERROR: f64 = 0.01 * std::f64::consts::PI / 180.0;
+
+/// Largest turn between two keys, radians (60 degrees). Viewers take the short way round, so it
+/// must stay well below a half turn.
+pub const ANIMATION_LONGEST_STEP: f64 = std::f64::consts::PI / 3.0;

@@ -7,6 +7,7 @@
 mod atomic;
 mod glb;
 mod json;
+mod keys;
 mod obj;
 mod stl;
 
