@@ -91,3 +91,7 @@ pub const FIT_SAMPLES_MOST: usize = 1 << 18;
 pub const PLACEMENT_SAMPLES: usize = 1024;
 /// How far, radians, a follower's drawing may swing from the angle of the fit to overlay its pitch curve best.
 pub const PLACEMENT_SWING: f64 = 0.25;
+/// Gap between Lipschitz envelopes (of ln r) that counts as none.
+pub const ENVELOPES_MEET: f64 = 1e-12;
+/// Shares of the upper envelope tried on each stretch whose lean is bounded.
+pub const ENVELOPE_SHARES: [f64; 7] = [0.2, 0.35, 0.45, 0.5, 0.55, 0.65, 0.8];
