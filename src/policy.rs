@@ -452,3 +452,7 @@ pub const ANIMATION_ANGLE_ERROR: f64 = 0.01 * std::f64::consts::PI / 180.0;
 /// Largest turn between two keys, radians (60 degrees). Viewers take the short way round, so it
 /// must stay well below a half turn.
 pub const ANIMATION_LONGEST_STEP: f64 = std::f64::consts::PI / 3.0;
+/// Gap between Lipschitz envelopes (of ln r) that counts as none.
+pub const ENVELOPES_MEET: f64 = 1e-12;
+/// Shares of the upper envelope tried on each stretch whose lean is bounded.
+pub const ENVELOPE_SHARES: [f64; 7] = [0.2, 0.35, 0.45, 0.5, 0.55, 0.65, 0.8];

@@ -30,7 +30,8 @@ pub(super) struct LongSpectrum {
     pub(super) law: Vec<f64>,
     spectrum: Vec<Complex<f64>>,
     scale: Vec<f64>,
-    energy: Vec<f64>,
+    /// What a shift costs before the correlation is taken off: energy of the scaled window, and its folding when asked for.
+    offset: Vec<f64>,
 }
 
 impl LongSpectrum {
@@ -52,7 +53,7 @@ pub(super) struct Scratch {
 /// The best shift of one pair of laws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Alignment {
-    /// Delta of Eq. 12, integrated over the driver's whole turn.
+    /// Delta of Eq. 12, integrated over the driver's whole turn, with the cost of folding if the spectrum carries it.
     pub(super) delta: f64,
     /// Samples by which the window of the long gear's law is shifted.
     pub(super) shift: usize,
@@ -89,22 +90,35 @@ impl Aligner {
     }
 
     /// Transforms the long gear's law of one whole turn; its windows will be scaled to the mean `mean`.
-    pub(super) fn long(&self, law: Vec<f64>, mean: f64) -> LongSpectrum {
+    ///
+    /// With `folding` each window is also charged what it costs to repeat it over the whole turn.
+    pub(super) fn long(&self, law: Vec<f64>, mean: f64, folding: bool) -> LongSpectrum {
         let (n, m) = (self.short_len, self.long_len);
+        let windows = m / n;
+        let stacked: Vec<f64> = (0..n).map(|i| law.iter().skip(i).step_by(n).sum()).collect();
+        let whole: f64 = law.iter().map(|v| v * v).sum();
         let mut sum: f64 = law[..n].iter().sum();
         let mut squares: f64 = law[..n].iter().map(|v| v * v).sum();
-        let (mut scale, mut energy) = (Vec::with_capacity(m), Vec::with_capacity(m));
+        let mut repeated: f64 = law[..n].iter().zip(&stacked).map(|(v, s)| v * s).sum();
+        let (mut scale, mut offset) = (Vec::with_capacity(m), Vec::with_capacity(m));
         for s in 0..m {
             let c = n as f64 * mean / sum;
             // The inverse transform is not normalised: its factor is folded in here.
             scale.push(2.0 * c / m as f64);
-            energy.push(c * c * squares);
+            let energy = c * c * squares;
+            let apart = if folding && windows > 1 {
+                ((whole - 2.0 * c * repeated) / windows as f64 + energy).max(0.0)
+            } else {
+                0.0
+            };
+            offset.push(energy + apart);
             let (gone, come) = (law[s], law[(s + n) % m]);
             sum += come - gone;
             squares += come * come - gone * gone;
+            repeated += (come - gone) * stacked[s % n];
         }
         let spectrum = self.transform(law.clone());
-        LongSpectrum { law, spectrum, scale, energy }
+        LongSpectrum { law, spectrum, scale, offset }
     }
 
     fn transform(&self, mut values: Vec<f64>) -> Vec<Complex<f64>> {
@@ -128,7 +142,7 @@ impl Aligner {
         }
         // Only a residue of rounding in the two purely real terms could be refused here; it is harmless.
         let _ = self.inverse.process_with_scratch(product, delta, work);
-        for ((d, c), e) in delta.iter_mut().zip(&long.scale).zip(&long.energy) {
+        for ((d, c), e) in delta.iter_mut().zip(&long.scale).zip(&long.offset) {
             *d = e - c * *d;
         }
         let mut best = Alignment { delta: f64::INFINITY, shift: 0 };
@@ -145,6 +159,7 @@ impl Aligner {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::objective::folding_cost;
 
     #[test]
     fn transforms_find_what_trying_every_shift_finds() {
@@ -169,10 +184,18 @@ mod tests {
                 .min_by(|x, y| x.1.total_cmp(&y.1))
                 .unwrap();
             let aligner = Aligner::new(n, windows);
-            let (short, long) = (aligner.short(a), aligner.long(b, 1.0));
+            let (short, long) = (aligner.short(a), aligner.long(b.clone(), 1.0, false));
             let fast = aligner.best(&short, &long, 1, &mut aligner.scratch());
             assert_eq!(fast.shift, slow.0);
             assert!((fast.delta - slow.1).abs() < 1e-12);
+            let charged = aligner.long(b.clone(), 1.0, true);
+            for s in [0, 7, n / 2] {
+                let window: Vec<f64> = charged.window(s, n, 1.0).collect();
+                let apart =
+                    folding_cost(&(0..m).map(|i| b[(s + i) % m]).collect::<Vec<_>>(), &window);
+                let difference = (charged.offset[s] - long.offset[s]) * TAU / n as f64;
+                assert!((difference - apart).abs() < 1e-12 && (windows == 1 || apart > 0.1));
+            }
         }
     }
 }

@@ -23,6 +23,7 @@ struct Pair {
     short: u32,
     long: u32,
     shift: u32,
+    /// Delta with the cost of folding.
     delta: f64,
     /// E without limits.
     estimate: f64,
@@ -118,7 +119,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
         .collect();
     let longs: Vec<(Point, LongSpectrum)> = long_grid
         .into_par_iter()
-        .filter_map(|c| Some((c, aligner.long(problem.whole_turn(long_role, c).ok()?, mean))))
+        .filter_map(|c| Some((c, aligner.long(problem.whole_turn(long_role, c).ok()?, mean, true))))
         .collect();
     let mut pairs: Vec<Pair> = shorts
         .par_iter()
@@ -170,7 +171,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
                     longs[p.long as usize].1.window(p.shift as usize, problem.samples, mean);
                 let blend = problem.blend(&shorts[p.short as usize].1.law, window);
                 let (_, cost) = apply(&blend, problem.folds(), problem.limits).ok()?;
-                Some((problem.objective(p.delta, &cost).total, p))
+                Some((problem.objective(p.delta, 0.0, &cost).total, p))
             })
             .collect();
         judged.extend(scored);

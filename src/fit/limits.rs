@@ -281,7 +281,7 @@ impl Task<'_> {
         let rise = slope * self.step(law.len());
         let upper = envelope(&y, rise, 1.0);
         let lower = envelope(&y, rise, -1.0);
-        let mut y: Vec<f64> = upper.iter().zip(&lower).map(|(u, l)| 0.5 * (u + l)).collect();
+        let mut y = between(&upper, &lower, law);
         for _ in 0..policy::LEAN_SMOOTHING_PASSES {
             y = smoothed(&y);
         }
@@ -360,6 +360,41 @@ fn envelope(y: &[f64], rise: f64, side: f64) -> Vec<f64> {
         e[i % n] = e[i % n].max(e[(i + 1) % n] - rise);
     }
     e.iter().map(|v| side * v).collect()
+}
+
+/// A curve between the envelopes: on every stretch where they part, the mixture that changes psi' least.
+///
+/// Stretches meet where the envelopes do, so each may choose alone and the slope bound still holds.
+fn between(upper: &[f64], lower: &[f64], law: &[f64]) -> Vec<f64> {
+    let n = law.len();
+    let parted = |i: usize| upper[i % n] - lower[i % n] > policy::ENVELOPES_MEET;
+    let mixed = |i: usize, share: f64| lower[i] + share * (upper[i] - lower[i]);
+    let change = |from: usize, to: usize, share: f64| -> f64 {
+        (from..to)
+            .map(|i| {
+                let r = mixed(i % n, share).exp();
+                let d = r / (1.0 - r) - law[i % n];
+                d * d
+            })
+            .sum()
+    };
+    let mut y: Vec<f64> = (0..n).map(|i| mixed(i, 0.5)).collect();
+    let first = (0..n).find(|i| !parted(*i)).unwrap_or(0);
+    let mut i = first;
+    while i < first + n {
+        if !parted(i) {
+            i += 1;
+            continue;
+        }
+        let end = (i..first + n).find(|j| !parted(*j)).unwrap_or(first + n);
+        let cost = policy::ENVELOPE_SHARES.map(|share| (change(i, end, share), share));
+        let best = cost.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.5, |c| c.1);
+        for k in i..end {
+            y[k % n] = mixed(k % n, best);
+        }
+        i = end;
+    }
+    y
 }
 
 fn smoothed(y: &[f64]) -> Vec<f64> {

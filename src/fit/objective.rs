@@ -34,7 +34,7 @@ pub(super) struct Problem<'a> {
 /// What a candidate is worth. `total` is what searches minimise.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Objective {
-    /// E: `shape + weight * torque + limiting_cost`. Where no limit bites it is Eq. 11.
+    /// E: `shape + weight * torque + limiting_cost + folding_cost`. For K = 1 and where no limit bites it is Eq. 11.
     pub total: f64,
     /// E_s, Delta of Eq. 12 and 13: integral of the squared difference of both shapes' laws over the driver's turn.
     pub shape: f64,
@@ -44,6 +44,9 @@ pub struct Objective {
     pub weight: f64,
     /// Further change of shape by the limits, in the measure of E_s (see [`LimitCost::shape`]).
     pub limiting_cost: f64,
+    /// Change of the long gear's shape by repeating one window round it, in the measure of E_s; 0 for K = 1 and for
+    /// shapes that have the symmetry. Eq. 12 sees only the window.
+    pub folding_cost: f64,
 }
 
 /// A candidate worked out.
@@ -142,13 +145,15 @@ impl<'a> Problem<'a> {
             (&follower, &driver)
         };
         let short = closed(short.sample(0.0, n, n), mean);
-        let window = closed(long.sample(candidate.shift, n, whole), mean);
+        let turn = long.sample(candidate.shift, whole, whole);
+        let window = closed(turn[..n].to_vec(), mean);
+        let folding = folding_cost(&turn, &window);
         let delta =
             short.iter().zip(&window).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() * TAU / n as f64;
         let blend = self.blend(&short, window.into_iter());
         let (limited, cost) = apply(&blend, self.folds(), self.limits)?;
         Ok(Scored {
-            objective: self.objective(delta, &cost),
+            objective: self.objective(delta, folding, &cost),
             blend,
             limited,
             cost,
@@ -162,10 +167,17 @@ impl<'a> Problem<'a> {
         self.score(candidate).map_or(f64::INFINITY, |s| s.objective.total)
     }
 
-    pub(super) fn objective(&self, shape: f64, cost: &LimitCost) -> Objective {
+    pub(super) fn objective(&self, shape: f64, folding_cost: f64, cost: &LimitCost) -> Objective {
         let torque = cost.derivative.1;
-        let total = shape + self.weight * torque + cost.shape;
-        Objective { total, shape, torque, weight: self.weight, limiting_cost: cost.shape }
+        let total = shape + self.weight * torque + cost.shape + folding_cost;
+        Objective {
+            total,
+            shape,
+            torque,
+            weight: self.weight,
+            limiting_cost: cost.shape,
+            folding_cost,
+        }
     }
 }
 
@@ -174,6 +186,16 @@ fn closed(mut samples: Vec<f64>, mean: f64) -> Vec<f64> {
     let scale = mean * samples.len() as f64 / samples.iter().sum::<f64>();
     samples.iter_mut().for_each(|v| *v *= scale);
     samples
+}
+
+/// Mean over the windows of the integral (over the driver's turn) of the squared difference between the long gear's own law and
+/// `window` repeated.
+pub(super) fn folding_cost(turn: &[f64], window: &[f64]) -> f64 {
+    if turn.len() == window.len() {
+        return 0.0;
+    }
+    let sum: f64 = turn.iter().zip(window.iter().cycle()).map(|(a, b)| (a - b) * (a - b)).sum();
+    sum * TAU / turn.len() as f64
 }
 
 /// Greatest value of a list.

@@ -59,7 +59,7 @@ pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
             problem.whole_turn(short_role, c).ok().map(|law| aligner.short(law))
         });
         let longs: Vec<Seat<LongSpectrum>> = seats(&parents.1, |c| {
-            problem.whole_turn(long_role, c).ok().map(|law| aligner.long(law, mean))
+            problem.whole_turn(long_role, c).ok().map(|law| aligner.long(law, mean, false))
         });
         scored += shorts.len() * longs.len();
         let found: Vec<(f64, Cell, Cell, usize)> = shorts

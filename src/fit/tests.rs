@@ -124,16 +124,18 @@ fn global_is_never_above_paper() {
     for driver in &shapes {
         for follower in &shapes {
             for limits in [
-                Limits::default(),
                 Limits { max_derivative: Some(1.3), ..Limits::default() },
                 Limits { max_curvature: Some(40.0), max_lean: 0.4, ..Limits::default() },
             ] {
-                let with = |search| FitOptions { limits, samples: 128, ..quick(search) };
+                let with = |search| FitOptions { limits, samples: 96, ..quick(search) };
                 let paper = fit(driver, follower, Ratio::ONE, &with(Search::Paper)).unwrap();
                 let global = fit(driver, follower, Ratio::ONE, &with(Search::Global)).unwrap();
                 assert!(global.objective.total <= paper.objective.total + 1e-12);
-                let Objective { total, shape, torque, weight, limiting_cost } = global.objective;
-                assert!((total - shape - weight * torque - limiting_cost).abs() < 1e-12);
+                let Objective { total, shape, torque, weight, limiting_cost, folding_cost } =
+                    global.objective;
+                assert!(
+                    (total - shape - weight * torque - limiting_cost - folding_cost).abs() < 1e-12
+                );
                 assert!(torque <= limits.max_derivative.unwrap_or(f64::INFINITY) * (1.0 + 1e-8));
                 assert!((global.transmission.max_derivative() - torque).abs() < 1e-9);
                 assert!(global.pairs_scored > 50_000);
