@@ -8,7 +8,7 @@ use centrode::design::{
     BoreChoice, Design, DesignOptions, Record, Scale, TeethStyle, ToothCount, design,
 };
 use centrode::export::{
-    Export, Obj, Parts, Stl, prepare_folder, write_atomically, write_json,
+    Export, Glb, Obj, Parts, Stl, prepare_folder, write_atomically, write_json,
 };
 use centrode::fit::{FitOptions, Limits, Ratio, Search};
 use centrode::outline::{LoadOptions, Shape, Smoothing, load};
@@ -106,7 +106,7 @@ fn bail_unsound(made: &Design, args: &DesignArgs) -> anyhow::Result<()> {
 fn write(made: &Design, meshes: &[Mesh], args: &DesignArgs) -> anyhow::Result<Vec<PathBuf>> {
     let folder: &Path = &args.output;
     let parts = Parts { assembly: &made.assembly, meshes };
-    let formats: [&dyn Export; 2] = [&Stl, &Obj];
+    let formats: [&dyn Export; 3] = [&Glb::default(), &Stl, &Obj];
     let mut files = Vec::new();
     for format in formats {
         files.extend(format.write(parts, folder)?);
