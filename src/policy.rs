@@ -325,12 +325,6 @@ pub const LIMIT_LARGEST_STEP: f64 = 0.8;
 pub const LIMIT_BISECTIONS: usize = 20;
 /// Binomial smoothing passes over the kinks of a Lipschitz envelope, so that the spline does not overshoot there.
 pub const LEAN_SMOOTHING_PASSES: usize = 4;
-/// Rounds of local diffusion for one curvature bound.
-pub const CURVATURE_ROUNDS: usize = 60;
-/// Reach of one diffusion round over the radian length of a curve at the bound: larger rounds off more than it must.
-pub const CURVATURE_DIFFUSION: f64 = 0.15;
-/// Samples by which diffusion spreads beyond those over the bound, halved in strength at each.
-pub const CURVATURE_SPREAD: usize = 4;
 
 // ---- Design --------------------------------------------------------------------------------
 
@@ -349,7 +343,7 @@ pub const REPAIRS: usize = 4;
 /// Tooth counts that are tried, smallest first.
 pub const TOOTH_COUNTS: [u32; 7] = [24, 32, 40, 48, 56, 64, 72];
 /// Change of shape (in the measure of E_s) by rounding corners below which fewer teeth are taken.
-pub const ROUNDING_ACCEPTED: f64 = 0.01;
+pub const ROUNDING_ACCEPTED: f64 = 0.03;
 /// Smallest module chosen without being asked, mm: below it a common printer fails.
 pub const SMALLEST_CHOSEN_MODULE: f64 = 1.2;
 /// Fewest and most teeth on either gear.
@@ -456,3 +450,21 @@ pub const ANIMATION_LONGEST_STEP: f64 = std::f64::consts::PI / 3.0;
 pub const ENVELOPES_MEET: f64 = 1e-12;
 /// Shares of the upper envelope tried on each stretch whose lean is bounded.
 pub const ENVELOPE_SHARES: [f64; 7] = [0.2, 0.35, 0.45, 0.5, 0.55, 0.65, 0.8];
+
+// ---- Rounding of pitch curves ----------------------------------------------------------------
+
+/// Standard deviation of the blur where nothing is too sharp, samples: it takes the kinks of the
+/// lean bound away and nothing that can be seen.
+pub const BLUR_LEAST: f64 = 1.0;
+/// Widest blur, as a share of one period.
+pub const BLUR_MOST: f64 = 0.06;
+/// Rounds in which the blur may widen. With the growth below they reach from the least to the widest.
+pub const BLUR_ROUNDS: usize = 40;
+/// Least and largest factor by which a blur widens in one round.
+pub const BLUR_GROWTH: (f64, f64) = (1.12, 1.6);
+/// Change of a blur's standard deviation from sample to sample at most; faster changes make kinks.
+pub const BLUR_WIDTH_SLOPE: f64 = 0.25;
+/// Smoothing passes over the widths, so that the blur sets in gently.
+pub const BLUR_WIDTH_PASSES: usize = 8;
+/// Standard deviations at which the Gaussian is cut off: what is left out is below 1e-4.
+pub const BLUR_REACH: f64 = 3.7;

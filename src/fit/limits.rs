@@ -3,15 +3,15 @@
 //! Working on y = ln r_D, the driver's pitch curve, makes closing harmless: Eq. 9 closes the pair by
 //! scaling r_D, and the lean, d y / d phi, does not see a scale. In order:
 //! 1. lean: y between its upper and lower Lipschitz envelopes, lightly smoothed;
-//! 2. curvature: diffusion of y where a pitch curve bends too sharply, and only there;
+//! 2. curvature: a blur of y where a pitch curve bends too sharply, and only there;
 //! 3. torque: Eq. 16 with the rescaling solved for, so that the bound survives it.
 //!
-//! Every bound is checked on the spline that is delivered, between samples too. What rounding of corners leaves
+//! The bounds on lean and torque are checked on the spline that is delivered, between samples too. What rounding of corners leaves
 //! over the bounds is taken away by drawing psi' towards its mean, which reaches every bound in the end.
 
 use std::f64::consts::TAU;
 
-use crate::pitch::{Centrodes, Transmission, TransmissionError, center_distance, solve_cyclic};
+use crate::pitch::{Centrodes, Transmission, TransmissionError, center_distance};
 use crate::policy;
 
 /// Bounds on a law psi'.
@@ -21,7 +21,8 @@ pub struct Limits {
     pub max_derivative: Option<f64>,
     /// Greatest angle between pitch normal and radius, radians; 60 degrees by default.
     pub max_lean: f64,
-    /// Greatest |curvature| of either pitch curve times the driver's perimeter; none by default.
+    /// Greatest |curvature| of either pitch curve times the driver's perimeter; none by default. Kept at the
+    /// samples, and between them to within the spline's own ripple; [`LimitCost::curvature`] says what came out.
     pub max_curvature: Option<f64>,
 }
 
@@ -186,7 +187,6 @@ impl Task<'_> {
         };
         within(found.lean, Some(self.limits.max_lean))
             && within(found.derivative, self.limits.max_derivative)
-            && within(found.curvature, self.limits.max_curvature)
     }
 
     /// Repeats the three steps, each a little tighter by what the spline was found to exceed.
@@ -194,7 +194,6 @@ impl Task<'_> {
         let detailed = self.limits.max_curvature.is_some();
         let slope = self.limits.max_lean.tan();
         let mut tight_slope = slope;
-        let mut tight_curvature = self.limits.max_curvature;
         let mut law = blend.to_vec();
         let mut lean_over = before.lean > self.limits.max_lean;
         for _ in 0..policy::LIMIT_ROUNDS {
@@ -202,7 +201,7 @@ impl Task<'_> {
             if lean_over {
                 bounded = self.bound_lean(&bounded, tight_slope);
             }
-            if let Some(most) = tight_curvature {
+            if let Some(most) = self.limits.max_curvature {
                 bounded = self.bound_curvature(&bounded, most);
             }
             if let Some(most) = self.limits.max_derivative {
@@ -229,13 +228,6 @@ impl Task<'_> {
                 lean_over = true;
                 tight_slope *= (slope / found.lean.tan()).max(policy::LIMIT_LARGEST_STEP)
                     * policy::LIMIT_TIGHTENING;
-            }
-            if let (Some(now), Some(most)) = (tight_curvature, self.limits.max_curvature)
-                && found.curvature > most
-            {
-                let least = TAU * (1.0 / self.ratio).max(1.0);
-                let by = (most / found.curvature).max(policy::LIMIT_LARGEST_STEP);
-                tight_curvature = Some((now * by * policy::LIMIT_TIGHTENING).max(least));
             }
         }
         self.draw_until_kept(&law, detailed)
@@ -288,32 +280,40 @@ impl Task<'_> {
         self.law_of(&y)
     }
 
-    /// Diffuses y where either pitch curve bends by more than `most` (times the driver's perimeter).
+    /// Blurs y where either pitch curve bends by more than `most` (times the driver's perimeter), and as
+    /// little as will do: the width of the blur grows, round by round, about each place that is over.
+    ///
+    /// Every round blurs the given curve afresh, so nothing piles up; a round that still finds a place over
+    /// after the last is delivered all the same, as a corner that no blur of a reasonable width rounds.
     fn bound_curvature(&self, law: &[f64], most: f64) -> Vec<f64> {
         let n = law.len();
+        let y = log_radius(law);
+        let mut widths = vec![policy::BLUR_LEAST; n];
         let mut law = law.to_vec();
-        // A pitch curve at the bound turns by one radian in about this many samples.
-        let feature = n as f64 / most;
-        let strength = (policy::CURVATURE_DIFFUSION * feature).powi(2);
-        for _ in 0..policy::CURVATURE_ROUNDS {
+        for _ in 0..policy::BLUR_ROUNDS {
+            law = self.law_of(&blurred(&y, &widths));
             let (bend, length) = self.bends(&law);
-            let relative = length / most;
-            let over: Vec<f64> =
-                bend.iter().map(|b| (b * relative - 1.0).clamp(0.0, 1.0)).collect();
-            if over.iter().all(|v| *v <= 0.0) {
+            let mut wider = widths.clone();
+            let mut any = false;
+            for i in 0..n {
+                let over = bend[i] * length / most;
+                if over <= 1.0 {
+                    continue;
+                }
+                any = true;
+                let wanted = widths[i] * over.sqrt().clamp(policy::BLUR_GROWTH.0, policy::BLUR_GROWTH.1);
+                let wanted = wanted.min(policy::BLUR_MOST * n as f64);
+                wider[i] = wider[i].max(wanted);
+            }
+            if !any {
                 break;
             }
-            let mut coefficient = over;
-            for _ in 0..policy::CURVATURE_SPREAD {
-                coefficient = (0..n)
-                    .map(|i| {
-                        coefficient[i]
-                            .max(0.5 * (coefficient[(i + 1) % n].max(coefficient[(i + n - 1) % n])))
-                    })
-                    .collect();
+            // Widths that change gently bend nothing by themselves.
+            wider = envelope(&wider, policy::BLUR_WIDTH_SLOPE, 1.0);
+            for _ in 0..policy::BLUR_WIDTH_PASSES {
+                wider = smoothed(&wider);
             }
-            let y = diffused(&log_radius(&law), &coefficient, strength);
-            law = self.law_of(&y);
+            widths = wider.iter().zip(&widths).map(|(a, b)| a.max(*b)).collect();
         }
         law
     }
@@ -402,15 +402,21 @@ fn smoothed(y: &[f64]) -> Vec<f64> {
     (0..n).map(|i| 0.5 * y[i] + 0.25 * (y[(i + 1) % n] + y[(i + n - 1) % n])).collect()
 }
 
-/// One implicit step of diffusion with a coefficient of `strength` (samples squared) times `coefficient`.
-fn diffused(y: &[f64], coefficient: &[f64], strength: f64) -> Vec<f64> {
+/// The periodic average of y under a Gaussian whose standard deviation (samples) is given at each sample.
+fn blurred(y: &[f64], widths: &[f64]) -> Vec<f64> {
     let n = y.len();
-    let ahead: Vec<f64> =
-        (0..n).map(|i| 0.5 * strength * (coefficient[i] + coefficient[(i + 1) % n])).collect();
-    let lower: Vec<f64> = (0..n).map(|i| -ahead[(i + n - 1) % n]).collect();
-    let upper: Vec<f64> = ahead.iter().map(|a| -a).collect();
-    let diagonal: Vec<f64> = (0..n).map(|i| 1.0 - lower[i] - upper[i]).collect();
-    solve_cyclic(&lower, &diagonal, &upper, y)
+    (0..n)
+        .map(|i| {
+            let reach = ((policy::BLUR_REACH * widths[i]).ceil() as usize).min(n / 2);
+            let (mut sum, mut weights) = (y[i], 1.0);
+            for k in 1..=reach {
+                let w = (-0.5 * (k as f64 / widths[i]).powi(2)).exp();
+                sum += w * (y[(i + k) % n] + y[(i + n - k) % n]);
+                weights += 2.0 * w;
+            }
+            sum / weights
+        })
+        .collect()
 }
 
 /// min(s psi', most) with the scale s that closes it: the limit of truncating and rescaling in turn (Eq. 16).
