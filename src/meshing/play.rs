@@ -201,7 +201,8 @@ impl Search<'_> {
 
     /// A point inside the other gear: freed by the smaller of two turns.
     fn interfere(&mut self, p: Point, axis: Point, index: &EdgeIndex, probing: Probing) {
-        self.play.depth = self.play.depth.max(index.distance(p));
+        let depth = index.distance(p, self.play.depth);
+        self.play.depth = self.play.depth.max(depth);
         let max = self.pose.max_play;
         let ways = [1.0, -1.0].map(|direction| index.first_crossing(p, axis, direction, max));
         let nearest =
