@@ -7,6 +7,8 @@ and measures with shapely, at poses that lie on no grid of teeth:
   overlap   area and depth of the two outlines' intersection at the designed angles
   play      how far the follower can turn from its designed angle, behind and ahead, until the
             outlines overlap (bisection on the overlap area)
+  jammed    poses at which both flanks overlap: no turn within half a pitch frees the follower;
+            the depth limit alone judges them (gears without backlash touch on both sides)
   lost      poses at which the follower meets nothing behind within half a pitch
 
 Exit 0 when the pair passes the limits below, 1 when it fails, 2 when the file cannot be used.
@@ -90,17 +92,23 @@ class Pair:
         self.driver, self.follower = driver, follower
         self.distance, self.module = distance, module
         self.reach = max(math.hypot(*p) for p in follower.exterior.coords)
+        self.driver_reach = max(math.hypot(*p) for p in driver.exterior.coords)
 
     def place_driver(self, phi):
         """The driver at phi, cut to what the follower can touch."""
         turned = affinity.rotate(self.driver, phi, origin=(0, 0), use_radians=True)
         reach = self.reach + 0.1 * self.module
         window = shapely.box(self.distance - reach, -reach, self.distance + reach, reach)
-        return turned.intersection(window)
+        cut = turned.intersection(window)
+        shapely.prepare(cut)
+        return cut
 
-    def place_follower(self, angle):
+    def place_follower(self, angle, limit):
+        """The follower at an angle, cut to what may touch the driver within a turn of limit."""
         turned = affinity.rotate(self.follower, -angle, origin=(0, 0), use_radians=True)
-        return affinity.translate(turned, self.distance, 0)
+        right = self.driver_reach - self.distance + 2 * limit * self.reach + 0.1 * self.module
+        window = shapely.box(-self.reach - 1, -self.reach - 1, right, self.reach + 1)
+        return affinity.translate(turned.intersection(window), self.distance, 0)
 
     def overlap(self, driver, follower):
         """Area (mm^2) and depth (mm) of the intersection."""
@@ -116,33 +124,54 @@ class Pair:
             return False
         return driver.intersection(follower).area > TOUCH_AREA * self.module**2
 
-    def play(self, driver, follower, sense, limit, step, tolerance):
-        """Turn in one sense until contact; negative to get free; None if there is no contact."""
+    def plays(self, driver, near, limit, step, tolerance):
+        """Turns behind and ahead until contact; None without contact, NaN when jammed.
+
+        Overlapping at the designed angle, the follower is first freed to the nearer side: that
+        side's play is what it needed, taken negative, and the other is the room found beyond.
+        """
+        if not self.touches(driver, near, 0.0):
+            return [self.play(driver, near, sense, limit, step, tolerance) for sense in (-1, 1)]
+        ways = [(self.freeing_turn(driver, near, sense, limit, tolerance), sense)
+                for sense in (-1, 1)]
+        ways = sorted(way for way in ways if way[0] is not None)
+        if not ways:
+            return [math.nan, math.nan]
+        turn, sense = ways[0]
+        freed = affinity.rotate(near, -sense * (turn + tolerance), origin=(self.distance, 0),
+                                use_radians=True)
+        room = self.play(driver, freed, sense, limit, step, tolerance)
+        room = None if room is None else room + turn
+        return [-turn, room] if sense > 0 else [room, -turn]
+
+    def freeing_turn(self, driver, near, sense, limit, tolerance):
+        low, high = 0.0, tolerance
+        while self.touches(driver, near, sense * high):
+            # Small steps: the room between two flanks may be narrow.
+            low, high = high, high + max(tolerance, 0.2 * high)
+            if high > limit:
+                return None
+        while high - low > tolerance:
+            middle = 0.5 * (low + high)
+            if self.touches(driver, near, sense * middle):
+                low = middle
+            else:
+                high = middle
+        return high
+
+    def play(self, driver, near, sense, limit, step, tolerance):
+        """Turn in one sense from a free angle until contact, or None."""
         low = 0.0
-        if self.touches(driver, follower, 0.0):
-            # Overlap at the designed angle: turn away from this side until it is gone.
-            high = tolerance
-            while self.touches(driver, follower, -sense * high):
-                low, high = high, 2 * high
-                if high > limit:
-                    return -limit
-            while high - low > tolerance:
-                middle = 0.5 * (low + high)
-                if self.touches(driver, follower, -sense * middle):
-                    low = middle
-                else:
-                    high = middle
-            return -0.5 * (low + high)
         while True:
             high = min(low + step, limit)
-            if self.touches(driver, follower, sense * high):
+            if self.touches(driver, near, sense * high):
                 break
             if high >= limit:
                 return None
             low = high
         while high - low > tolerance:
             middle = 0.5 * (low + high)
-            if self.touches(driver, follower, sense * middle):
+            if self.touches(driver, near, sense * middle):
                 high = middle
             else:
                 low = middle
@@ -157,10 +186,15 @@ def pieces(geometry):
 def piece_depth(piece, driver, follower):
     """How deep points of one outline lie inside the other, over one piece of the intersection."""
     corners = shapely.points(np.asarray(piece.exterior.coords))
-    inside_driver = shapely.distance(corners, driver.exterior if driver.geom_type == "Polygon"
-                                     else driver.boundary)
-    inside_follower = shapely.distance(corners, follower.exterior)
+    # Cut edges are out of the other outline's reach and do not count.
+    inside_driver = shapely.distance(corners, driver.boundary)
+    inside_follower = shapely.distance(corners, follower.boundary)
     return float(max(inside_driver.max(), inside_follower.max()))
+
+
+def plain(value):
+    """JSON has no NaN."""
+    return None if value is None or math.isnan(value) else value
 
 
 def percentile(values, share):
@@ -178,12 +212,9 @@ def judge(path, poses):
         pitch = math.pi * module / radius
         tolerance = TURN_TOLERANCE * module / radius
         here = pair.place_driver(phi)
-        there = pair.place_follower(psi(phi))
+        there = pair.place_follower(psi(phi), 0.5 * pitch)
         area, depth = pair.overlap(here, there)
-        behind = pair.play(here, there, -1, 0.5 * pitch, COARSE_STEP * pitch, tolerance)
-        ahead = pair.play(here, there, 1, 0.5 * pitch, COARSE_STEP * pitch, tolerance)
-        # Overlapping at the designed angle, the follower gets free to one side only, unless
-        # both flanks interfere: the other side is then the room that opens beyond.
+        behind, ahead = pair.plays(here, there, 0.5 * pitch, COARSE_STEP * pitch, tolerance)
         if behind is None:
             lost_at.append(math.degrees(phi))
         rows.append((phi, area, depth, behind, ahead, pitch))
@@ -191,17 +222,19 @@ def judge(path, poses):
 
 
 def summarise(path, rows, lost_at, module, poses):
-    loaded = [(b, p) for _, _, _, b, _, p in rows if b is not None]
+    jammed = sum(b is not None and math.isnan(b) for _, _, _, b, _, _ in rows)
+    loaded = [(b, p) for _, _, _, b, _, p in rows if b is not None and not math.isnan(b)]
     error = np.array([-b / p for b, p in loaded])
     stray = np.abs(error - np.median(error)) if len(error) else np.array([])
     both = [(b + a, (b + a) / p) for _, _, _, b, a, p in rows
-            if b is not None and a is not None and b >= 0 and a >= 0]
+            if b is not None and a is not None and not math.isnan(a + b)]
     deepest = max(rows, key=lambda row: row[2])
     result = {
         "file": str(path),
         "poses": poses,
         "lost_poses": len(lost_at),
         "lost_driver_degrees": [round(a, 3) for a in lost_at],
+        "jammed_poses": jammed,
         "max_overlap_mm2": max(row[1] for row in rows),
         "max_depth_mm": deepest[2],
         "max_depth_module": deepest[2] / module,
@@ -228,7 +261,7 @@ def summarise(path, rows, lost_at, module, poses):
     result["failures"] = failures
     result["pass"] = not failures
     result["per_pose"] = [
-        {"driver_angle": phi, "area": area, "depth": depth, "behind": behind, "ahead": ahead}
+        {"driver_angle": phi, "area": area, "depth": depth, "behind": plain(behind), "ahead": plain(ahead)}
         for phi, area, depth, behind, ahead, _ in rows
     ]
     return result
@@ -251,11 +284,11 @@ def main():
     else:
         e = result["error_pitch"]
         pct = lambda v: "-" if v is None else f"{100 * v:.3f}%"
-        print(f"lost {result['lost_poses']}/{result['poses']}"
+        print(f"lost {result['lost_poses']} jam {result['jammed_poses']} of {result['poses']}"
               f"  depth {result['max_depth_module']:.5f} m"
               f"  TE median {pct(e['median'])} dev {pct(e['median_deviation'])}"
               f" p99 {pct(e['p99_deviation'])} p-p {pct(e['peak_to_peak'])} of a pitch"
-              f"  backlash deg {result['backlash_degrees']}")
+              f"  backlash deg {[round(b, 4) for b in result['backlash_degrees'] or []]}")
         for failure in result["failures"]:
             print(f"FAIL {failure}")
     return 0 if result["pass"] else 1
