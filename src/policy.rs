@@ -121,6 +121,10 @@ pub const CONTACT_MAX_CELLS: f64 = 1e6;
 /// Consecutive points tested as one against the distance field before each is tested alone.
 pub const CONTACT_BLOCK: usize = 8;
 
+/// Interference, in modules, beyond which a pose is given up as jammed: the teeth are through each
+/// other, and how far is of no use to anyone.
+pub const DEEP_INTERFERENCE: f64 = 0.5;
+
 /// Fractional part of the golden ratio: multiples of it fall on no grid of teeth or samples.
 pub const GOLDEN_FRACTION: f64 = 0.618_033_988_749_894_9;
 // --- outline: reading, repairing and smoothing drawings ---

@@ -157,7 +157,8 @@ pub struct ContactAnalysis {
 /// Analyses the contact of two gears over one cycle.
 ///
 /// Plays are exact for the polygons given, up to rounding; interference is measured at the
-/// outlines' points (and at points between, a quarter module apart). Work grows with the number
+/// outlines' points (and at points between, a quarter module apart), and once it passes
+/// [`policy::DEEP_INTERFERENCE`] only a lower bound is given. Work grows with the number
 /// of points near the other gear, not with the size of the gears.
 ///
 /// # Errors
@@ -228,6 +229,7 @@ fn pose_at(
         // Twice the turn that closes the contact distance at the pitch radius: it covers contacts
         // whose normal passes the axis at half that radius or more.
         slack: 2.0 * near / follower_radius,
+        deep: policy::DEEP_INTERFERENCE * input.module,
         pitch_point: Point::new(input.center_distance - follower_radius, 0.0),
     };
     let play = free_play(driver, follower, &pose);

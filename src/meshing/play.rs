@@ -84,6 +84,8 @@ pub(super) struct Pose {
     pub(super) max_play: f64,
     /// Contacts this much further (radians) than the first are gathered as well.
     pub(super) slack: f64,
+    /// Interference deeper than this (mm) need not be measured further.
+    pub(super) deep: f64,
     /// World position of the pitch point.
     pub(super) pitch_point: Point,
 }
@@ -119,9 +121,24 @@ enum Probing {
     Follower,
 }
 
+/// A point inside the other gear, and where it could leave on either side.
+struct Inside {
+    ways: [Option<Crossing>; 2],
+    p: Point,
+    probing: Probing,
+}
+
+impl Inside {
+    /// The shorter of the two turns that free the point.
+    fn shorter(&self) -> f64 {
+        self.ways.iter().flatten().map(|c| c.angle.abs()).fold(f64::INFINITY, f64::min)
+    }
+}
+
 struct Search<'a> {
     pose: &'a Pose,
     play: Play,
+    inside: Vec<Inside>,
 }
 
 /// Finds the free play at one pose.
@@ -132,13 +149,14 @@ pub(super) fn free_play(driver: &Body, follower: &Body, pose: &Pose) -> Play {
         Placement::new(sum, -Placement::new(pose.follower_angle, Vector::zeros()).turn(between));
     let axis = Placement::new(-pose.driver_angle, Vector::zeros()).turn(between);
     let into_driver = Placement::new(-sum, axis);
-    let mut search =
-        Search { pose, play: Play { behind: None, ahead: None, depth: 0.0, touches: Vec::new() } };
+    let play = Play { behind: None, ahead: None, depth: 0.0, touches: Vec::new() };
+    let mut search = Search { pose, play, inside: Vec::new() };
     let in_follower =
         Placement::new(pose.follower_angle, Vector::zeros()).place(pose.pitch_point - between);
     let in_driver = Placement::new(-pose.driver_angle, Vector::zeros()).place(pose.pitch_point);
     search.probe(driver, follower, &into_follower, Point::origin(), in_follower, Probing::Driver);
     search.probe(follower, driver, &into_driver, Point::from(axis), in_driver, Probing::Follower);
+    search.settle(driver, follower);
     search.play
 }
 
@@ -165,6 +183,9 @@ impl Search<'_> {
         // The closest first: a short play found early shortens every later search.
         close.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (_, block) in close {
+            if self.play.depth > self.pose.deep {
+                return;
+            }
             for &p in &body.probes[block.first..block.last] {
                 self.probe_point(placement.place(p), axis, &other.index, probing);
             }
@@ -195,47 +216,56 @@ impl Search<'_> {
             return;
         }
         for crossing in [next, last].into_iter().flatten() {
-            self.note(&crossing, p, axis, index, probing);
+            self.note(&crossing, p, index, probing);
         }
     }
 
-    /// A point inside the other gear: freed by the smaller of two turns.
+    /// Takes note of a point inside the other gear; [`Self::settle`] decides how it gets out.
     fn interfere(&mut self, p: Point, axis: Point, index: &EdgeIndex, probing: Probing) {
-        self.play.depth = self.play.depth.max(index.distance(p));
+        let depth = index.distance(p, self.play.depth);
+        self.play.depth = self.play.depth.max(depth);
         let max = self.pose.max_play;
         let ways = [1.0, -1.0].map(|direction| index.first_crossing(p, axis, direction, max));
-        let nearest =
-            ways.into_iter().flatten().min_by(|a, b| a.angle.abs().total_cmp(&b.angle.abs()));
-        match nearest {
-            Some(crossing) => self.note(&crossing, p, axis, index, probing),
-            None => {
+        self.inside.push(Inside { ways, p, probing });
+    }
+
+    /// Frees the points that are inside the other gear, the deepest first, each by the turn that
+    /// adds least to what the points before it asked for: a point near a tooth's tip could also
+    /// leave over the tip, but follows its flank.
+    fn settle(&mut self, driver: &Body, follower: &Body) {
+        let max = self.pose.max_play;
+        let mut inside = std::mem::take(&mut self.inside);
+        inside.sort_by(|a, b| b.shorter().total_cmp(&a.shorter()));
+        let (mut behind, mut ahead) = (0.0_f64, 0.0_f64);
+        for point in &inside {
+            let extra = |crossing: &&Crossing| {
+                let asked = if is_ahead(crossing, point.probing) { ahead } else { behind };
+                (crossing.angle.abs() - asked).max(0.0)
+            };
+            let ways = point.ways.iter().flatten();
+            let Some(way) = ways.min_by(|a, b| extra(a).total_cmp(&extra(b))) else {
                 self.play.behind = Some(-max);
                 self.play.ahead = Some(-max);
-            }
+                return;
+            };
+            let asked = if is_ahead(way, point.probing) { &mut ahead } else { &mut behind };
+            *asked = asked.max(way.angle.abs());
+            let body = if point.probing == Probing::Driver { follower } else { driver };
+            self.note(way, point.p, &body.index, point.probing);
         }
     }
 
     /// Takes one meeting of a point and an edge into account.
-    fn note(
-        &mut self,
-        crossing: &Crossing,
-        p: Point,
-        axis: Point,
-        index: &EdgeIndex,
-        probing: Probing,
-    ) {
-        // Seen from a driver point, follower material that begins at a greater angle is met when
-        // the follower turns ahead (clockwise); seen from a follower point, the other way round.
-        let is_ahead = crossing.entering == (probing == Probing::Driver);
+    fn note(&mut self, crossing: &Crossing, p: Point, index: &EdgeIndex, probing: Probing) {
         let turn = if crossing.entering { crossing.angle } else { -crossing.angle };
-        if is_ahead {
+        if is_ahead(crossing, probing) {
             self.play.ahead = Some(self.play.ahead.map_or(turn, |best| best.min(turn)));
             return;
         }
         let first = self.play.behind.map_or(turn, |best| best.min(turn));
         self.play.behind = Some(first);
         if turn <= first + self.pose.slack {
-            let touch = self.touch(turn, crossing, p, axis, index, probing);
+            let touch = self.touch(turn, crossing, p, index, probing);
             self.play.touches.push(touch);
         }
     }
@@ -245,7 +275,6 @@ impl Search<'_> {
         turn: f64,
         crossing: &Crossing,
         p: Point,
-        axis: Point,
         index: &EdgeIndex,
         probing: Probing,
     ) -> Touch {
@@ -267,4 +296,11 @@ impl Search<'_> {
         };
         Touch { turn, point, normal }
     }
+}
+
+/// Whether a crossing bounds the follower's turn ahead (else behind). Seen from a driver point,
+/// follower material that begins at a greater angle is met when the follower turns ahead
+/// (clockwise); seen from a follower point it is the other way round.
+fn is_ahead(crossing: &Crossing, probing: Probing) -> bool {
+    crossing.entering == (probing == Probing::Driver)
 }
