@@ -99,8 +99,17 @@ fn read(args: &DesignArgs) -> anyhow::Result<[Shape; 2]> {
 }
 
 fn bail_unsound(made: &Design, args: &DesignArgs) -> anyhow::Result<()> {
-    let hint = if args.teeth.strict { "without --strict gentler settings are tried" } else { "--force writes the files all the same" };
-    bail!("{} and {} do not make a sound pair: {} ({hint})", made.names[0], made.names[1], made.faults.join("; "))
+    let hint = if args.teeth.strict {
+        "without --strict gentler settings are tried"
+    } else {
+        "--force writes the files all the same"
+    };
+    bail!(
+        "{} and {} do not make a sound pair: {} ({hint})",
+        made.names[0],
+        made.names[1],
+        made.faults.join("; ")
+    )
 }
 
 fn write(made: &Design, meshes: &[Mesh], args: &DesignArgs) -> anyhow::Result<Vec<PathBuf>> {

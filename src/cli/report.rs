@@ -87,7 +87,13 @@ pub(crate) fn summary(
     for fault in &made.faults {
         writeln!(out, "not sound: {fault}")?;
     }
-    writeln!(out, "{} files in {} after {:.1} s", files.len(), folder.display(), elapsed.as_secs_f64())?;
+    writeln!(
+        out,
+        "{} files in {} after {:.1} s",
+        files.len(),
+        folder.display(),
+        elapsed.as_secs_f64()
+    )?;
     writeln!(out, "open {}", folder.join("report.html").display())?;
     Ok(())
 }
@@ -100,7 +106,9 @@ pub(crate) fn page(made: &Design) -> ReportData {
         (true, false) => Verdict::Warnings,
     };
     let summary = match verdict {
-        Verdict::Good => "Contact is never lost and nothing overlaps through the whole cycle.".to_owned(),
+        Verdict::Good => {
+            "Contact is never lost and nothing overlaps through the whole cycle.".to_owned()
+        }
         Verdict::Warnings => made.warnings.join(" "),
         Verdict::Unsound => made.faults.join(" "),
     };
@@ -135,7 +143,11 @@ fn sections(made: &Design) -> Vec<Section> {
         .row("Module", format!("{:.3} mm", made.pair.module))
         .row("Centre distance", format!("{:.3} mm", made.centrodes.center_distance))
         .row("Thickness", format!("{:.2} mm", made.assembly.thickness))
-        .noted_row("Clearance", format!("{:.3} mm", made.options.clearance), "inward offset of every face, per gear");
+        .noted_row(
+            "Clearance",
+            format!("{:.3} mm", made.options.clearance),
+            "inward offset of every face, per gear",
+        );
     if let (Some(least), Some(most)) = (&contact.min_backlash, &contact.max_backlash) {
         gears = gears.noted_row(
             "Angular backlash",
@@ -144,20 +156,50 @@ fn sections(made: &Design) -> Vec<Section> {
         );
     }
     let fit = Section::new("Fit")
-        .noted_row("Likeness of the driver", percent(made.likeness[0]), "area of intersection over union")
-        .noted_row("Likeness of the follower", percent(made.likeness[1]), "area of intersection over union")
+        .noted_row(
+            "Likeness of the driver",
+            percent(made.likeness[0]),
+            "area of intersection over union",
+        )
+        .noted_row(
+            "Likeness of the follower",
+            percent(made.likeness[1]),
+            "area of intersection over union",
+        )
         .row("E", format!("{:.4}", objective.total))
         .noted_row("E_s", format!("{:.4}", objective.shape), "change of shape, Eq. 12")
-        .noted_row("E_tau", format!("{:.4}", objective.torque), "greatest driver torque over the follower's")
-        .noted_row("Steepest lean", degrees(made.centrodes.max_lean()), "pitch-curve normal against radius")
-        .row("psi'", format!("{:.3} to {:.3}", transmission.min_derivative(), transmission.max_derivative()));
+        .noted_row(
+            "E_tau",
+            format!("{:.4}", objective.torque),
+            "greatest driver torque over the follower's",
+        )
+        .noted_row(
+            "Steepest lean",
+            degrees(made.centrodes.max_lean()),
+            "pitch-curve normal against radius",
+        )
+        .row(
+            "psi'",
+            format!("{:.3} to {:.3}", transmission.min_derivative(), transmission.max_derivative()),
+        );
     let mut mesh = Section::new("Mesh")
-        .noted_row("Contact ratio", format!("{:.2}", contact.contact_ratio), "teeth in contact, mean")
-        .row("Contact lost", format!("at {} of {} poses", contact.lost_poses, made.contact.poses.len()));
+        .noted_row(
+            "Contact ratio",
+            format!("{:.2}", contact.contact_ratio),
+            "teeth in contact, mean",
+        )
+        .row(
+            "Contact lost",
+            format!("at {} of {} poses", contact.lost_poses, made.contact.poses.len()),
+        );
     if let Some(error) = &made.exact_contact.summary.transmission_error_pitch {
         mesh = mesh.noted_row(
             "Transmission error",
-            format!("{:.4} % median, {:.3} % 99th percentile", 100.0 * error.median_deviation, 100.0 * error.p99_deviation),
+            format!(
+                "{:.4} % median, {:.3} % 99th percentile",
+                100.0 * error.median_deviation,
+                100.0 * error.p99_deviation
+            ),
             "of a pitch, without clearance",
         );
     }
@@ -176,7 +218,8 @@ fn plots(made: &Design) -> Vec<Plot> {
             .map(|phi| (phi, f(phi)))
             .collect()
     };
-    let error = made.contact.poses.iter().map(|p| (p.driver_angle, p.transmission_error.to_degrees()));
+    let error =
+        made.contact.poses.iter().map(|p| (p.driver_angle, p.transmission_error.to_degrees()));
     let teeth = made.contact.poses.iter().map(|p| (p.driver_angle, p.contacts.len() as f64));
     vec![
         Plot::over_driver_angle("Transmission function psi", "follower angle, °")

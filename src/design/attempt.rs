@@ -51,8 +51,8 @@ impl Settings {
             }
             ToothCount::Auto => {
                 let centrodes = scaled(transmission.clone(), options);
-                let most = perimeter(&centrodes)
-                    / (std::f64::consts::PI * policy::SMALLEST_CHOSEN_MODULE);
+                let most =
+                    perimeter(&centrodes) / (std::f64::consts::PI * policy::SMALLEST_CHOSEN_MODULE);
                 for count in policy::TOOTH_COUNTS {
                     let count = whole_teeth(f64::from(count), folds);
                     if settings.teeth != 0 && f64::from(count) > most {
@@ -68,9 +68,10 @@ impl Settings {
         }
         let (least, most) = policy::TEETH_RANGE;
         let follower = settings.teeth * folds.1 / folds.0;
-        for (name, count) in
-            [("the number of driver teeth", settings.teeth), ("the number of follower teeth", follower)]
-        {
+        for (name, count) in [
+            ("the number of driver teeth", settings.teeth),
+            ("the number of follower teeth", follower),
+        ] {
             if !(least..=most).contains(&count) {
                 return Err(DesignError::Option {
                     name,
@@ -147,8 +148,7 @@ impl Attempt {
         let (samples, rounding) = fit::apply(&fit.raw, folds, &settings.limits(options))?;
         let transmission = Transmission::from_derivative(&samples, folds.0, folds.1)?;
         let centrodes = scaled(transmission, options);
-        let module =
-            centrodes.perimeter().0 / (std::f64::consts::PI * f64::from(settings.teeth));
+        let module = centrodes.perimeter().0 / (std::f64::consts::PI * f64::from(settings.teeth));
         let teeth_options = TeethOptions {
             driver_teeth: settings.teeth,
             pressure_angle: options.pressure_angle,
@@ -165,7 +165,10 @@ impl Attempt {
             TeethStyle::Wave => teeth::wave_pair(&centrodes, &teeth_options)?,
         };
         let inset = |profile: &Profile| {
-            profile.inset(options.clearance).ok_or(TeethError::NothingLeft { clearance: options.clearance })
+            profile
+                .inset(options.clearance)
+                .map(|p| p.without_short_edges(policy::SHORTEST_EDGE * module))
+                .ok_or(TeethError::NothingLeft { clearance: options.clearance })
         };
         let finished = [inset(&pair.driver)?, inset(&pair.follower)?];
         let exact = contact(&centrodes, module, [&pair.driver, &pair.follower])?;
@@ -179,7 +182,11 @@ impl Attempt {
 
     /// 99th percentile of the transmission error without clearance, in pitches.
     pub(super) fn error_share(&self) -> f64 {
-        self.exact.summary.transmission_error_pitch.as_ref().map_or(f64::INFINITY, |e| e.p99_deviation)
+        self.exact
+            .summary
+            .transmission_error_pitch
+            .as_ref()
+            .map_or(f64::INFINITY, |e| e.p99_deviation)
     }
 
     fn interference_in_modules(&self) -> f64 {
@@ -210,7 +217,10 @@ impl Attempt {
                 arc.from.to_degrees()
             ));
         } else if summary.lost_poses_reversed > 0 {
-            faults.push("driven backwards the pair loses contact; try more teeth or a lower --max-lean".to_owned());
+            faults.push(
+                "driven backwards the pair loses contact; try more teeth or a lower --max-lean"
+                    .to_owned(),
+            );
         }
         if self.interference_in_modules() > policy::WORST_INTERFERENCE
             && let Some(worst) = &summary.max_interference
@@ -301,8 +311,7 @@ impl Attempt {
         let periods = teeth::cycle_periods(transmission);
         let count = policy::MOTION_SAMPLES * periods as usize;
         let cycle = transmission.driver_period() * f64::from(periods);
-        let driver_angle: Vec<f64> =
-            (0..=count).map(|i| cycle * i as f64 / count as f64).collect();
+        let driver_angle: Vec<f64> = (0..=count).map(|i| cycle * i as f64 / count as f64).collect();
         let follower_angle = driver_angle.iter().map(|&phi| -transmission.psi(phi)).collect();
         let axes = [Point::origin(), Point::new(self.centrodes.center_distance, 0.0)];
         let angles = [driver_angle.clone(), follower_angle];

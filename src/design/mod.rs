@@ -105,7 +105,11 @@ fn check(options: &DesignOptions) -> Result<(), DesignError> {
         if value > 0.0 && value <= policy::LARGEST_LENGTH {
             Ok(())
         } else {
-            refuse(name, value, format!("give a length above 0 and up to {} mm", policy::LARGEST_LENGTH))
+            refuse(
+                name,
+                value,
+                format!("give a length above 0 and up to {} mm", policy::LARGEST_LENGTH),
+            )
         }
     };
     match options.scale {

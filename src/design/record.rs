@@ -42,7 +42,10 @@ struct Motion {
 }
 
 #[derive(Debug, Serialize)]
-#[allow(non_snake_case, reason = "E is the name of the objective in the paper and in the file format")]
+#[allow(
+    non_snake_case,
+    reason = "E is the name of the objective in the paper and in the file format"
+)]
 struct ObjectiveRecord {
     E: f64,
     shape: f64,

@@ -301,7 +301,8 @@ impl Task<'_> {
                     continue;
                 }
                 any = true;
-                let wanted = widths[i] * over.sqrt().clamp(policy::BLUR_GROWTH.0, policy::BLUR_GROWTH.1);
+                let wanted =
+                    widths[i] * over.sqrt().clamp(policy::BLUR_GROWTH.0, policy::BLUR_GROWTH.1);
                 let wanted = wanted.min(policy::BLUR_MOST * n as f64);
                 wider[i] = wider[i].max(wanted);
             }

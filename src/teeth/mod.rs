@@ -71,7 +71,9 @@ pub struct ToothedPair {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TeethError {
     /// The teeth do not divide over the symmetry of the driver.
-    #[error("{teeth} driver teeth do not divide into {folds} equal parts; give a multiple of {folds}")]
+    #[error(
+        "{teeth} driver teeth do not divide into {folds} equal parts; give a multiple of {folds}"
+    )]
     Indivisible {
         /// Teeth asked for.
         teeth: u32,

@@ -13,10 +13,7 @@ use crate::policy;
 ///
 /// # Errors
 /// See [`TeethError`].
-pub fn wave_pair(
-    centrodes: &Centrodes,
-    options: &TeethOptions,
-) -> Result<ToothedPair, TeethError> {
+pub fn wave_pair(centrodes: &Centrodes, options: &TeethOptions) -> Result<ToothedPair, TeethError> {
     let rolling = Rolling::new(centrodes);
     let folds = centrodes.transmission.driver_fold();
     let teeth = options.teeth_per_period(folds)?;
@@ -48,8 +45,9 @@ pub fn wave_pair(
             })
             .collect();
         let turn = -side.sign() * std::f64::consts::TAU / f64::from(folds);
-        let mut all: Vec<Point> =
-            (0..folds).flat_map(|k| one.iter().map(move |p| rotate(*p, turn * f64::from(k)))).collect();
+        let mut all: Vec<Point> = (0..folds)
+            .flat_map(|k| one.iter().map(move |p| rotate(*p, turn * f64::from(k))))
+            .collect();
         if side == Side::Driver {
             all.reverse();
         }
