@@ -190,7 +190,8 @@ mod kernel {
     }
 
     pub(super) fn slice(solid: &Manifold, height: f64) -> Vec<Vec<Point>> {
-        let rings = solid.slice(height).to_polygons();
+        // `Manifold::slice` would snap the rings to a grid of 1e-8.
+        let rings = solid.as_impl().slice(height);
         rings.iter().map(|ring| ring.iter().map(|p| Point::new(p.x, p.y)).collect()).collect()
     }
 }
