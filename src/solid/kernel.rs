@@ -10,7 +10,7 @@ compile_error!("solids need a kernel: turn on the feature `manifold-cpp` or `pur
 /// A solid held by the Manifold kernel. Empty where the kernel refused its input.
 ///
 /// Coordinates in mm. Does not cross threads with the C++ kernel.
-pub struct Solid(kernel::Manifold);
+pub struct Solid(backend::Manifold);
 
 impl std::fmt::Debug for Solid {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -27,7 +27,7 @@ impl Solid {
     pub fn extrude(outer: &[Point], holes: &[Vec<Point>], height: f64) -> Self {
         let mut rings = vec![turned(outer, true)];
         rings.extend(holes.iter().map(|hole| turned(hole, false)));
-        Self(kernel::extrude(&rings, height))
+        Self(backend::extrude(&rings, height))
     }
 
     /// Both solids as one.
@@ -51,7 +51,7 @@ impl Solid {
             }
             solids = joined;
         }
-        solids.pop().unwrap_or_else(|| Self(kernel::Manifold::empty()))
+        solids.pop().unwrap_or_else(|| Self(backend::Manifold::empty()))
     }
 
     /// This solid less the other.
@@ -69,7 +69,7 @@ impl Solid {
     /// Moved by `x`, `y`, `z`, mm.
     #[must_use]
     pub fn translate(&self, x: f64, y: f64, z: f64) -> Self {
-        Self(kernel::translate(&self.0, x, y, z))
+        Self(backend::translate(&self.0, x, y, z))
     }
 
     /// Turned about the z axis by `angle` radians, counter-clockwise.
@@ -87,7 +87,7 @@ impl Solid {
     /// The surface. Positions carry single precision from the C++ kernel.
     #[must_use]
     pub fn mesh(&self) -> Mesh {
-        kernel::mesh(&self.0)
+        backend::mesh(&self.0)
     }
 
     /// The rings in which the plane z = `height` cuts the solid, in double precision:
@@ -98,7 +98,7 @@ impl Solid {
         if self.is_empty() {
             return Vec::new();
         }
-        kernel::slice(&self.0, height)
+        backend::slice(&self.0, height)
     }
 
     /// Makes a lazy kernel do its work now: a question about the result is the only way to ask.
@@ -118,7 +118,7 @@ fn turned(ring: &[Point], counter_clockwise: bool) -> Vec<Point> {
 }
 
 #[cfg(not(feature = "pure-rust"))]
-mod kernel {
+mod backend {
     use super::{Mesh, Point};
     pub(super) use manifold_rs::Manifold;
 
@@ -157,7 +157,7 @@ mod kernel {
 }
 
 #[cfg(feature = "pure-rust")]
-mod kernel {
+mod backend {
     use super::{Mesh, Point};
     use manifold_rust::linalg::{Vec2, Vec3};
     pub(super) use manifold_rust::manifold::Manifold;
@@ -190,7 +190,8 @@ mod kernel {
     }
 
     pub(super) fn slice(solid: &Manifold, height: f64) -> Vec<Vec<Point>> {
-        let rings = solid.slice(height).to_polygons();
+        // `Manifold::slice` would snap the rings to a grid of 1e-8.
+        let rings = solid.as_impl().slice(height);
         rings.iter().map(|ring| ring.iter().map(|p| Point::new(p.x, p.y)).collect()).collect()
     }
 }
