@@ -59,7 +59,7 @@ pub const CAP_STEEPEST: f64 = 2.0;
 /// Share of a tip's half land that the sloping sides of its cap may use up.
 pub const CAP_LAND_USED: f64 = 0.7;
 /// Rays on which a root curve is found: one every few degrees of its turn.
-pub const ROOT_RAYS: usize = 21;
+pub const ROOT_RAYS: usize = 17;
 /// Instants at which the cap is placed before refinement.
 pub const ROOT_INSTANTS: usize = 25;
 /// Extra rolling on both ends of the cap's passage, in pitches: the corner must have turned away.
@@ -88,7 +88,7 @@ pub const CARVE_INSTANTS_PER_TOOTH: usize = 32;
 pub const CARVE_DEPTH: f64 = 0.05;
 /// The driver is shrunk by this before it may carve a follower that already has conjugate flanks, in
 /// modules: above the chord error of the flanks, so that touching is not taken for collision.
-pub const CARVE_SKIN: f64 = 5e-4;
+pub const CARVE_SKIN: f64 = 1e-3;
 // Contact analysis (`meshing`).
 
 /// Poses of one contact analysis, over a whole cycle. Twenty and more a tooth on gears of 64

@@ -126,7 +126,7 @@ pub(crate) struct TeethArgs {
     /// Extra depth of the roots below a mating tip [default: 0.25 module]
     #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero)]
     pub(crate) root_clearance: Option<f64>,
-    /// Largest distance between a flank and its chords, in modules [default: 0.0002]
+    /// Largest distance between a flank and its chords, in modules [default: 0.0005]
     #[arg(long, value_name = "MODULES", value_parser = units::positive)]
     pub(crate) chord_tolerance: Option<f64>,
     /// Cut the follower with the exact sweep, or literally as solids with Manifold (slow)

@@ -47,7 +47,7 @@ impl Default for TeethOptions {
             addendum: 1.0,
             root_clearance: 0.25,
             backlash: 0.0,
-            chord_tolerance: 2e-4,
+            chord_tolerance: 5e-4,
         }
     }
 }
