@@ -472,3 +472,5 @@ pub const BLUR_WIDTH_SLOPE: f64 = 0.25;
 pub const BLUR_WIDTH_PASSES: usize = 8;
 /// Standard deviations at which the Gaussian is cut off: what is left out is below 1e-4.
 pub const BLUR_REACH: f64 = 3.7;
+/// Driver poses per period when the follower is carved as solids: the paper's N.
+pub const SOLID_CARVING_POSES: u32 = 1024;

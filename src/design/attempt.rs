@@ -11,6 +11,7 @@ use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
 use crate::outline::Shape;
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
+use crate::solid::{carve_follower_with_manifold, circle};
 use crate::teeth::{self, Profile, TeethError, TeethOptions, ToothedPair};
 
 /// What may be changed from one attempt to the next.
@@ -164,6 +165,7 @@ impl Attempt {
             TeethStyle::Involute => teeth::involute_pair(&centrodes, &teeth_options)?,
             TeethStyle::Wave => teeth::wave_pair(&centrodes, &teeth_options)?,
         };
+        let pair = if options.carve_with_solids { carved_by_solids(&centrodes, pair, options)? } else { pair };
         let inset = |profile: &Profile| {
             profile
                 .inset(options.clearance)
@@ -338,6 +340,36 @@ impl Attempt {
             faults,
         })
     }
+}
+
+/// The pair with its follower carved literally: a disc less the driver at many instants, as solids.
+fn carved_by_solids(
+    centrodes: &Centrodes,
+    pair: ToothedPair,
+    options: &DesignOptions,
+) -> Result<ToothedPair, DesignError> {
+    let transmission = &centrodes.transmission;
+    let widest = centrodes
+        .follower_curve(policy::PITCH_CURVE_POINTS)
+        .iter()
+        .map(|p| p.coords.norm())
+        .fold(0.0, f64::max);
+    let blank = circle(widest + options.addendum * pair.module, policy::BORE_CHORD_TOLERANCE);
+    let count = policy::SOLID_CARVING_POSES * teeth::cycle_periods(transmission);
+    let cycle = transmission.driver_period() * f64::from(teeth::cycle_periods(transmission));
+    let poses: Vec<(f64, f64)> = (0..count)
+        .map(|i| cycle * f64::from(i) / f64::from(count))
+        .map(|phi| (phi, transmission.psi(phi)))
+        .collect();
+    let carved = carve_follower_with_manifold(
+        &pair.driver.points,
+        &blank,
+        centrodes.center_distance,
+        &poses,
+        options.thickness,
+    )?;
+    let follower = pair.follower.relabelled(carved.outline);
+    Ok(ToothedPair { follower, ..pair })
 }
 
 fn contact(

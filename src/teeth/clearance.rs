@@ -49,7 +49,7 @@ impl Profile {
     /// by place.
     #[must_use]
     pub fn untangled(self) -> Option<Self> {
-        if geometry::first_self_crossing(&self.points).is_none() {
+        if self.points.len() >= 3 && geometry::first_self_crossing(&self.points).is_none() {
             return (geometry::signed_area(&self.points) > 0.0).then_some(self);
         }
         let face = geometry::largest(geometry::positive_part(&self.points))?;

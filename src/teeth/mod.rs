@@ -13,6 +13,7 @@ pub use profile::{EdgeKind, Profile};
 pub use rolling::Side;
 pub use wave::wave_pair;
 
+use crate::geometry::Point;
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
 use layout::{Layout, Rack};
@@ -166,6 +167,32 @@ fn carve_rest(
     Ok((outline.without_short_edges(policy::SHORTEST_EDGE * module), carved.cuts))
 }
 
+/// What the moving driver leaves of a blank (follower's frame, mm): paper, section 3.3 (iii), along the
+/// exact envelope of the driver's outline. `None` when the follower's axis is cut away.
+#[must_use]
+pub fn carved_follower(
+    centrodes: &Centrodes,
+    driver: &[Point],
+    blank: &[Point],
+    driver_teeth: u32,
+) -> Option<Vec<Point>> {
+    let rolling = Rolling::new(centrodes);
+    let periods = f64::from(rolling.cycle_periods());
+    let teeth_per_period = f64::from(driver_teeth) / f64::from(centrodes.transmission.driver_fold());
+    let module = rolling.period() / (teeth_per_period * std::f64::consts::PI);
+    let instants = policy::CARVE_INSTANTS_PER_TOOTH as f64 * teeth_per_period * periods;
+    let carved = carve::carve(
+        &rolling,
+        driver,
+        blank,
+        rolling.period() * periods,
+        instants.ceil() as usize,
+        policy::CARVE_DEPTH * module,
+        false,
+    )?;
+    Some(carved.outline)
+}
+
 /// Periods of the motion after which both gears are back where they began.
 #[must_use]
 pub fn cycle_periods(transmission: &Transmission) -> u32 {
@@ -178,3 +205,6 @@ pub fn cycle_periods(transmission: &Transmission) -> u32 {
     };
     a / gcd(a, b) * b
 }
+
+#[cfg(test)]
+mod tests;
