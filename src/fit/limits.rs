@@ -7,10 +7,11 @@
 //! 3. torque: Eq. 16 with the rescaling solved for, so that the bound survives it.
 //!
 //! Every bound is checked on the spline that is delivered, between samples too. What rounding of corners leaves
-//! over the bounds is taken away by drawing psi' towards its mean, which reaches every bound in the end.
+//! over the bounds is taken away by diffusing y evenly and drawing psi' towards its mean, which reaches every bound in the end.
 
 use std::f64::consts::TAU;
 
+use super::lipschitz::{between, envelope, smoothed};
 use crate::pitch::{Centrodes, Transmission, TransmissionError, center_distance, solve_cyclic};
 use crate::policy;
 
@@ -164,13 +165,15 @@ impl Task<'_> {
         }
         let mean = 1.0 / self.ratio;
         if let Some(bound) = max_derivative
-            && !(bound >= mean)
+            && (bound < mean || bound.is_nan())
         {
             return Err(LimitError::TorqueBelowMean { bound, mean });
         }
         let least = TAU * (1.0 / self.ratio).max(1.0);
         match max_curvature {
-            Some(bound) if !(bound > least) => Err(LimitError::CurvatureBelowCircle { least }),
+            Some(bound) if bound <= least || bound.is_nan() => {
+                Err(LimitError::CurvatureBelowCircle { least })
+            }
             _ => Ok(()),
         }
     }
@@ -198,7 +201,8 @@ impl Task<'_> {
         let mut law = blend.to_vec();
         let mut lean_over = before.lean > self.limits.max_lean;
         for _ in 0..policy::LIMIT_ROUNDS {
-            let mut bounded = blend.to_vec();
+            // Rounding is slow to find: what an earlier round reached is kept. The lean bound is quick and starts afresh.
+            let mut bounded = if detailed { law.clone() } else { blend.to_vec() };
             if lean_over {
                 bounded = self.bound_lean(&bounded, tight_slope);
             }
@@ -238,28 +242,39 @@ impl Task<'_> {
                 tight_curvature = Some((now * by * policy::LIMIT_TIGHTENING).max(least));
             }
         }
-        self.draw_until_kept(&law, detailed)
+        self.diffuse_until_kept(&law, detailed)
     }
 
-    /// The least pull towards the mean that keeps every bound.
-    fn draw_until_kept(
+    /// The least even diffusion of y that keeps lean and curvature, drawn to the mean for the torque. Even diffusion never
+    /// raises the lean and ends in circles.
+    fn diffuse_until_kept(
         &self,
         law: &[f64],
         detailed: bool,
     ) -> Result<(Vec<f64>, Extremes), LimitError> {
-        let even = vec![1.0 / self.ratio; law.len()];
+        let n = law.len();
+        let even = vec![1.0 / self.ratio; n];
         let circles = Transmission::from_derivative(&even, self.folds.0, self.folds.1)?;
         let mut best = (even, Extremes::of(circles, detailed));
-        let (mut low, mut high) = (0.0, 1.0);
+        let y = log_radius(law);
+        let (mut low, mut high) = (0.0, (n as f64).ln());
         for _ in 0..policy::LIMIT_BISECTIONS {
-            let middle = 0.5 * (low + high);
-            let drawn = drawn_to_mean(law, middle);
+            let middle: f64 = 0.5 * (low + high);
+            // From nothing to the whole turn, evenly in the logarithm of the reach.
+            let reach = middle.exp_m1();
+            let mut drawn = self.law_of(&diffused(&diffused(&y, reach * reach), reach * reach));
+            if let (Some(most), Some(found)) =
+                (self.limits.max_derivative, self.extremes(&drawn, false))
+            {
+                let factor = (most * self.ratio - 1.0) / (found.derivative * self.ratio - 1.0);
+                drawn = drawn_to_mean(&drawn, factor);
+            }
             match self.extremes(&drawn, detailed) {
                 Some(found) if self.keeps(&found) => {
                     best = (drawn, found);
-                    low = middle;
+                    high = middle;
                 }
-                _ => high = middle,
+                _ => low = middle,
             }
         }
         Ok(best)
@@ -294,26 +309,33 @@ impl Task<'_> {
         let mut law = law.to_vec();
         // A pitch curve at the bound turns by one radian in about this many samples.
         let feature = n as f64 / most;
-        let strength = (policy::CURVATURE_DIFFUSION * feature).powi(2);
+        let spread = (policy::CURVATURE_SPREAD * feature).ceil() as usize;
+        let mut strength = (policy::CURVATURE_DIFFUSION * feature).powi(2);
         for _ in 0..policy::CURVATURE_ROUNDS {
             let (bend, length) = self.bends(&law);
             let relative = length / most;
-            let over: Vec<f64> =
-                bend.iter().map(|b| (b * relative - 1.0).clamp(0.0, 1.0)).collect();
-            if over.iter().all(|v| *v <= 0.0) {
+            if bend.iter().all(|b| b * relative <= 1.0) {
                 break;
             }
-            let mut coefficient = over;
-            for _ in 0..policy::CURVATURE_SPREAD {
-                coefficient = (0..n)
-                    .map(|i| {
-                        coefficient[i]
-                            .max(0.5 * (coefficient[(i + 1) % n].max(coefficient[(i + n - 1) % n])))
-                    })
-                    .collect();
+            // All of the diffused curve where the bound is passed, less of it over a margin below the bound and over a radian's
+            // length beside it. The share itself must be smooth, or its kinks would bend the curve anew.
+            let mut share: Vec<f64> = bend
+                .iter()
+                .map(|b| ((b * relative - 1.0) / policy::CURVATURE_MARGIN + 1.0).clamp(0.0, 1.0))
+                .collect();
+            let fade = 1.0 / (spread as f64 + 1.0);
+            for i in 0..2 * n {
+                share[(i + 1) % n] = share[(i + 1) % n].max(share[i % n] - fade);
             }
-            let y = diffused(&log_radius(&law), &coefficient, strength);
-            law = self.law_of(&y);
+            for i in (0..2 * n).rev() {
+                share[i % n] = share[i % n].max(share[(i + 1) % n] - fade);
+            }
+            let share = diffused(&diffused(&share, strength), strength);
+            let y = log_radius(&law);
+            let even = diffused(&diffused(&y, strength), strength);
+            let mixed: Vec<f64> = (0..n).map(|i| y[i] + share[i] * (even[i] - y[i])).collect();
+            law = self.law_of(&mixed);
+            strength *= policy::CURVATURE_GROWTH;
         }
         law
     }
@@ -348,69 +370,11 @@ fn log_radius(law: &[f64]) -> Vec<f64> {
     law.iter().map(|p| (p / (1.0 + p)).ln()).collect()
 }
 
-/// The least curve above `y` (`side` 1) or the greatest below it (`side` -1) that rises or falls by no more than `rise` a sample.
-fn envelope(y: &[f64], rise: f64, side: f64) -> Vec<f64> {
-    let n = y.len();
-    let mut e: Vec<f64> = y.iter().map(|v| side * v).collect();
-    // Twice round each way, since a peak may reach across the seam.
-    for i in 0..2 * n {
-        e[(i + 1) % n] = e[(i + 1) % n].max(e[i % n] - rise);
-    }
-    for i in (0..2 * n).rev() {
-        e[i % n] = e[i % n].max(e[(i + 1) % n] - rise);
-    }
-    e.iter().map(|v| side * v).collect()
-}
-
-/// A curve between the envelopes: on every stretch where they part, the mixture that changes psi' least.
-///
-/// Stretches meet where the envelopes do, so each may choose alone and the slope bound still holds.
-fn between(upper: &[f64], lower: &[f64], law: &[f64]) -> Vec<f64> {
-    let n = law.len();
-    let parted = |i: usize| upper[i % n] - lower[i % n] > policy::ENVELOPES_MEET;
-    let mixed = |i: usize, share: f64| lower[i] + share * (upper[i] - lower[i]);
-    let change = |from: usize, to: usize, share: f64| -> f64 {
-        (from..to)
-            .map(|i| {
-                let r = mixed(i % n, share).exp();
-                let d = r / (1.0 - r) - law[i % n];
-                d * d
-            })
-            .sum()
-    };
-    let mut y: Vec<f64> = (0..n).map(|i| mixed(i, 0.5)).collect();
-    let first = (0..n).find(|i| !parted(*i)).unwrap_or(0);
-    let mut i = first;
-    while i < first + n {
-        if !parted(i) {
-            i += 1;
-            continue;
-        }
-        let end = (i..first + n).find(|j| !parted(*j)).unwrap_or(first + n);
-        let cost = policy::ENVELOPE_SHARES.map(|share| (change(i, end, share), share));
-        let best = cost.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.5, |c| c.1);
-        for k in i..end {
-            y[k % n] = mixed(k % n, best);
-        }
-        i = end;
-    }
-    y
-}
-
-fn smoothed(y: &[f64]) -> Vec<f64> {
-    let n = y.len();
-    (0..n).map(|i| 0.5 * y[i] + 0.25 * (y[(i + 1) % n] + y[(i + n - 1) % n])).collect()
-}
-
-/// One implicit step of diffusion with a coefficient of `strength` (samples squared) times `coefficient`.
-fn diffused(y: &[f64], coefficient: &[f64], strength: f64) -> Vec<f64> {
-    let n = y.len();
-    let ahead: Vec<f64> =
-        (0..n).map(|i| 0.5 * strength * (coefficient[i] + coefficient[(i + 1) % n])).collect();
-    let lower: Vec<f64> = (0..n).map(|i| -ahead[(i + n - 1) % n]).collect();
-    let upper: Vec<f64> = ahead.iter().map(|a| -a).collect();
-    let diagonal: Vec<f64> = (0..n).map(|i| 1.0 - lower[i] - upper[i]).collect();
-    solve_cyclic(&lower, &diagonal, &upper, y)
+/// One implicit step of diffusion, `strength` in samples squared.
+fn diffused(y: &[f64], strength: f64) -> Vec<f64> {
+    let side = vec![-strength; y.len()];
+    let diagonal = vec![1.0 + 2.0 * strength; y.len()];
+    solve_cyclic(&side, &diagonal, &side, y)
 }
 
 /// min(s psi', most) with the scale s that closes it: the limit of truncating and rescaling in turn (Eq. 16).
@@ -436,7 +400,7 @@ fn bound_torque(law: &[f64], most: f64) -> Vec<f64> {
 
 /// mean + factor (psi' - mean): keeps the integral; a factor of 1 or more changes nothing.
 fn drawn_to_mean(law: &[f64], factor: f64) -> Vec<f64> {
-    if !(factor < 1.0) {
+    if factor >= 1.0 || factor.is_nan() {
         return law.to_vec();
     }
     let mean = law.iter().sum::<f64>() / law.len() as f64;
