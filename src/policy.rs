@@ -319,13 +319,13 @@ pub const MAX_RATIO: u32 = 100;
 pub const DEFAULT_MAX_LEAN: f64 = std::f64::consts::FRAC_PI_3;
 /// Relative excess over a bound that counts as rounding.
 pub const LIMIT_ROUNDING: f64 = 1e-9;
-/// Rounds of bounding, each tighter by what the spline exceeded; past them psi' is drawn to its mean.
+/// Rounds of bounding, each tighter by what the spline exceeded; past them the law is diffused evenly.
 pub const LIMIT_ROUNDS: usize = 8;
 /// Extra tightening of a round, so that the rounds do not creep up on the bound for ever.
 pub const LIMIT_TIGHTENING: f64 = 0.998;
 /// Most by which one round tightens a bound.
 pub const LIMIT_LARGEST_STEP: f64 = 0.8;
-/// Halvings when psi' is drawn to its mean: the pull is found to a millionth.
+/// Halvings of the search for the least even diffusion: its reach is found to a hundred-thousandth.
 pub const LIMIT_BISECTIONS: usize = 20;
 /// Binomial smoothing passes over the kinks of a Lipschitz envelope, so that the spline does not overshoot there.
 pub const LEAN_SMOOTHING_PASSES: usize = 4;
@@ -383,6 +383,16 @@ pub const WAVE_TOLERANCE: f64 = 0.1;
 pub const WAVE_TALLEST: f64 = 3.0;
 /// Points on one wave: chords within 0.005 module.
 pub const WAVE_POINTS_PER_TOOTH: usize = 32;
+/// Rounds of local diffusion for one curvature bound.
+pub const CURVATURE_ROUNDS: usize = 60;
+/// Reach of one diffusion round over the radian length of a curve at the bound: larger rounds off more than it must.
+pub const CURVATURE_DIFFUSION: f64 = 0.15;
+/// How far diffusion fades out beside a place over the bound, in radian lengths of a curve at the bound.
+pub const CURVATURE_SPREAD: f64 = 0.5;
+/// Relative distance below the bound at which diffusion begins; without it the last excess would decay for ever.
+pub const CURVATURE_MARGIN: f64 = 0.1;
+/// Growth of the diffusion from round to round.
+pub const CURVATURE_GROWTH: f64 = 1.04;
 /// The paper's search: cells along each side of the grid.
 pub const PAPER_GRID: usize = 3;
 /// The paper's J: pairs whose cells are refined.

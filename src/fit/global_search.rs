@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::align::{Aligner, LongSpectrum, ShortSpectrum};
 use super::laws::Role;
-use super::limits::apply;
+use super::limits::{Limits, apply};
 use super::objective::{Candidate, Problem, greatest};
 use super::{paper_search, refine};
 use crate::geometry::{self, Point};
@@ -32,43 +32,52 @@ struct Pair {
 /// The best centres and shift, and the number of pairs scored; none if no centre serves.
 pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
     let (paper, paper_pairs) = paper_search::search(problem);
+    // Rounding corners costs little and hardly depends on the centres, but is slow to work out: only the finalists are judged by it.
+    let limits = Limits { max_curvature: None, ..*problem.limits };
+    let unrounded = problem.with_limits(&limits);
+    let (mut finalists, scan_pairs) = finalists(&unrounded, paper.as_ref());
+    finalists.extend(paper);
+    let judged: Vec<(f64, Candidate)> =
+        finalists.par_iter().map(|c| (problem.total(c), *c)).collect();
+    let best = judged.into_iter().filter(|e| e.0.is_finite()).min_by(|a, b| a.0.total_cmp(&b.0));
+    (best.map(|(_, c)| c).or(paper), paper_pairs + scan_pairs)
+}
+
+/// The best candidates after refinement, and the pairs scored on the way.
+fn finalists(problem: &Problem<'_>, paper: Option<&Candidate>) -> (Vec<Candidate>, usize) {
     let thin = (thinned(problem.driver), thinned(problem.follower));
-    let coarse_samples =
-        (policy::SCAN_SAMPLES / problem.windows()).clamp(policy::SCAN_SAMPLES_LEAST, 256);
+    let coarse_samples = (policy::SCAN_SAMPLES / problem.windows())
+        .clamp(policy::SCAN_SAMPLES_LEAST, policy::SCAN_SAMPLES / 2);
     let coarse = problem.resampled((&thin.0, &thin.1), coarse_samples.next_power_of_two());
     let (seeds, scan_pairs, spacing) = scan(&coarse);
-    let mut starts: Vec<(f64, Candidate)> =
-        seeds.par_iter().map(|c| (problem.total(c), *c)).collect();
-    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    starts.truncate(policy::REFINED_STARTS);
-    starts.extend(paper.map(|c| (problem.total(&c), c)));
+    let ranked = |candidates: Vec<Candidate>, kept: usize| {
+        let mut scored: Vec<(f64, Candidate)> =
+            candidates.into_par_iter().map(|c| (problem.total(&c), c)).collect();
+        scored.retain(|s| s.0.is_finite());
+        scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+        scored.truncate(kept);
+        scored.into_iter().map(|s| s.1).collect::<Vec<_>>()
+    };
+    let mut starts = ranked(seeds, policy::REFINED_STARTS);
+    starts.extend(paper);
     let steps = Steps {
         driver: spacing.0,
         follower: spacing.1,
         shift: policy::REFINE_SHIFT * coarse.step(),
     };
-    let medium = problem.resampled((&thin.0, &thin.1), (problem.samples / 2).max(64));
-    let mut ends: Vec<(f64, Candidate)> = starts
+    let medium =
+        problem.resampled((&thin.0, &thin.1), (problem.samples / 2).max(policy::FIT_SAMPLES_LEAST));
+    let mut ends: Vec<Candidate> = starts
         .par_iter()
-        .map(|(_, c)| {
-            let end = refined(&medium, c, &steps, policy::REFINE_EVALUATIONS);
-            (problem.total(&end), end)
-        })
+        .map(|c| refined(&medium, c, &steps, policy::REFINE_EVALUATIONS))
         .collect();
     ends.extend(&starts);
-    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
-    ends.truncate(policy::POLISHED);
+    let ends = ranked(ends, policy::POLISHED);
     let fine = steps.shrunk(policy::POLISH_SHRINK);
-    let polished: Vec<(f64, Candidate)> = ends
-        .par_iter()
-        .map(|(_, c)| {
-            let end = refined(problem, c, &fine, policy::POLISH_EVALUATIONS);
-            (problem.total(&end), end)
-        })
-        .collect();
-    ends.extend(polished);
-    let best = ends.into_iter().filter(|e| e.0.is_finite()).min_by(|a, b| a.0.total_cmp(&b.0));
-    (best.map(|(_, c)| c).or(paper), paper_pairs + scan_pairs)
+    let mut all: Vec<Candidate> =
+        ends.par_iter().map(|c| refined(problem, c, &fine, policy::POLISH_EVALUATIONS)).collect();
+    all.extend(ends);
+    (ranked(all, policy::POLISHED), scan_pairs)
 }
 
 /// First steps of a refinement, drawing units and radians.

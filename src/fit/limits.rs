@@ -165,13 +165,15 @@ impl Task<'_> {
         }
         let mean = 1.0 / self.ratio;
         if let Some(bound) = max_derivative
-            && !(bound >= mean)
+            && (bound < mean || bound.is_nan())
         {
             return Err(LimitError::TorqueBelowMean { bound, mean });
         }
         let least = TAU * (1.0 / self.ratio).max(1.0);
         match max_curvature {
-            Some(bound) if !(bound > least) => Err(LimitError::CurvatureBelowCircle { least }),
+            Some(bound) if bound <= least || bound.is_nan() => {
+                Err(LimitError::CurvatureBelowCircle { least })
+            }
             _ => Ok(()),
         }
     }
@@ -197,7 +199,8 @@ impl Task<'_> {
         let mut law = blend.to_vec();
         let mut lean_over = before.lean > self.limits.max_lean;
         for _ in 0..policy::LIMIT_ROUNDS {
-            let mut bounded = blend.to_vec();
+            // Rounding is slow to find: what an earlier round reached is kept. The lean bound is quick and starts afresh.
+            let mut bounded = if detailed { law.clone() } else { blend.to_vec() };
             if lean_over {
                 bounded = self.bound_lean(&bounded, tight_slope);
             }
@@ -230,28 +233,39 @@ impl Task<'_> {
                     * policy::LIMIT_TIGHTENING;
             }
         }
-        self.draw_until_kept(&law, detailed)
+        self.diffuse_until_kept(&law, detailed)
     }
 
-    /// The least pull towards the mean that keeps every bound.
-    fn draw_until_kept(
+    /// The least even diffusion of y that keeps lean and curvature, drawn to the mean for the torque. Even diffusion never
+    /// raises the lean and ends in circles.
+    fn diffuse_until_kept(
         &self,
         law: &[f64],
         detailed: bool,
     ) -> Result<(Vec<f64>, Extremes), LimitError> {
-        let even = vec![1.0 / self.ratio; law.len()];
+        let n = law.len();
+        let even = vec![1.0 / self.ratio; n];
         let circles = Transmission::from_derivative(&even, self.folds.0, self.folds.1)?;
         let mut best = (even, Extremes::of(circles, detailed));
-        let (mut low, mut high) = (0.0, 1.0);
+        let y = log_radius(law);
+        let (mut low, mut high) = (0.0, (n as f64).ln());
         for _ in 0..policy::LIMIT_BISECTIONS {
-            let middle = 0.5 * (low + high);
-            let drawn = drawn_to_mean(law, middle);
+            let middle: f64 = 0.5 * (low + high);
+            // From nothing to the whole turn, evenly in the logarithm of the reach.
+            let reach = middle.exp_m1();
+            let mut drawn = self.law_of(&diffused(&diffused(&y, reach * reach), reach * reach));
+            if let (Some(most), Some(found)) =
+                (self.limits.max_derivative, self.extremes(&drawn, false))
+            {
+                let factor = (most * self.ratio - 1.0) / (found.derivative * self.ratio - 1.0);
+                drawn = drawn_to_mean(&drawn, factor);
+            }
             match self.extremes(&drawn, detailed) {
                 Some(found) if self.keeps(&found) => {
                     best = (drawn, found);
-                    low = middle;
+                    high = middle;
                 }
-                _ => high = middle,
+                _ => low = middle,
             }
         }
         Ok(best)
@@ -443,7 +457,7 @@ fn bound_torque(law: &[f64], most: f64) -> Vec<f64> {
 
 /// mean + factor (psi' - mean): keeps the integral; a factor of 1 or more changes nothing.
 fn drawn_to_mean(law: &[f64], factor: f64) -> Vec<f64> {
-    if !(factor < 1.0) {
+    if factor >= 1.0 || factor.is_nan() {
         return law.to_vec();
     }
     let mean = law.iter().sum::<f64>() / law.len() as f64;

@@ -10,6 +10,7 @@ mod align;
 mod global_search;
 mod laws;
 mod limits;
+mod lipschitz;
 mod objective;
 mod paper_search;
 mod placement;

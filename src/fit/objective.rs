@@ -91,6 +91,15 @@ impl<'a> Problem<'a> {
         Problem::new(shapes, self.ratio, self.limits, (self.weight, self.balance), samples)
     }
 
+    /// The same under other limits.
+    pub(super) fn with_limits<'b>(&self, limits: &'b Limits) -> Problem<'b>
+    where
+        'a: 'b,
+    {
+        let shapes: (&'b [Point], &'b [Point]) = (self.driver, self.follower);
+        Problem::new(shapes, self.ratio, limits, (self.weight, self.balance), self.samples)
+    }
+
     /// Periods in the long gear's turn.
     pub(super) fn windows(&self) -> usize {
         self.ratio.driver_fold().max(self.ratio.follower_fold()) as usize

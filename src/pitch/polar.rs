@@ -173,7 +173,7 @@ pub(crate) fn center_distance(radii: &[f64], ratio: f64) -> f64 {
         }
         // g = n / sum - ratio, g' = n slope / sum^2.
         let next = (l - (n - ratio * sum) * sum / (n * slope)).min(high);
-        if !(next > l) || next - l <= f64::EPSILON * l {
+        if next.is_nan() || next - l <= f64::EPSILON * l {
             return l;
         }
         l = next;

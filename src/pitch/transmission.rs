@@ -104,7 +104,7 @@ impl Transmission {
         let samples: Vec<f64> = samples.iter().map(|v| v * scale).collect();
         let spline = Spline::through(&samples, period, rise);
         let floor = policy::MIN_RELATIVE_SPEED * rise / period;
-        if !(spline.min.1 > floor) {
+        if spline.min.1 <= floor || spline.min.1.is_nan() {
             return Err(TransmissionError::NotIncreasing {
                 at: spline.min.0,
                 value: spline.min.1 * period / rise,
