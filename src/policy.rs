@@ -383,16 +383,6 @@ pub const WAVE_TOLERANCE: f64 = 0.1;
 pub const WAVE_TALLEST: f64 = 3.0;
 /// Points on one wave: chords within 0.005 module.
 pub const WAVE_POINTS_PER_TOOTH: usize = 32;
-/// Rounds of local diffusion for one curvature bound.
-pub const CURVATURE_ROUNDS: usize = 60;
-/// Reach of one diffusion round over the radian length of a curve at the bound: larger rounds off more than it must.
-pub const CURVATURE_DIFFUSION: f64 = 0.15;
-/// How far diffusion fades out beside a place over the bound, in radian lengths of a curve at the bound.
-pub const CURVATURE_SPREAD: f64 = 0.5;
-/// Relative distance below the bound at which diffusion begins; without it the last excess would decay for ever.
-pub const CURVATURE_MARGIN: f64 = 0.1;
-/// Growth of the diffusion from round to round.
-pub const CURVATURE_GROWTH: f64 = 1.04;
 /// The paper's search: cells along each side of the grid.
 pub const PAPER_GRID: usize = 3;
 /// The paper's J: pairs whose cells are refined.
@@ -484,3 +474,11 @@ pub const BLUR_WIDTH_PASSES: usize = 8;
 pub const BLUR_REACH: f64 = 3.7;
 /// Driver poses per period when the follower is carved as solids: the paper's N.
 pub const SOLID_CARVING_POSES: u32 = 1024;
+/// Height in modules by which a tooth may fall short and still count as full.
+pub const HEIGHT_GIVEN_UP: f64 = 0.02;
+/// Pressure angles closer than this (radians) count as the same.
+pub const SAME_ANGLE: f64 = 1e-6;
+/// Thinnest wall between opposite sides of a gear's body that goes without a warning, in modules.
+pub const THIN_WALL: f64 = 0.5;
+/// Chord of the rounded corners of the body in that check, radians of arc.
+pub const BODY_CHORD: f64 = 0.3;

@@ -122,7 +122,7 @@ pub(crate) fn page(made: &Design) -> ReportData {
         .collect();
     ReportData {
         title: format!("{} and {}", made.names[0], made.names[1]),
-        command: String::new(),
+        command: command_line(),
         made_by: concat!("centrode ", env!("CARGO_PKG_VERSION")).to_owned(),
         verdict,
         summary,
@@ -130,6 +130,20 @@ pub(crate) fn page(made: &Design) -> ReportData {
         plots: plots(made),
         notes,
     }
+}
+
+/// The command that makes this again, without the path of the program.
+fn command_line() -> String {
+    let quoted = |word: String| {
+        if word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./:=".contains(c)) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', "'\\''"))
+        }
+    };
+    let words: Vec<String> =
+        std::env::args_os().skip(1).map(|w| quoted(w.to_string_lossy().into_owned())).collect();
+    format!("centrode {}", words.join(" "))
 }
 
 fn sections(made: &Design) -> Vec<Section> {
@@ -205,6 +219,14 @@ fn sections(made: &Design) -> Vec<Section> {
     }
     if let Some(worst) = &contact.max_pressure_angle {
         mesh = mesh.row("Largest pressure angle", degrees(worst.value));
+    }
+    let [full, steeper, shortened, blunted] = made.tooth_tally();
+    if full + steeper + shortened + blunted > 0 {
+        mesh = mesh.noted_row(
+            "Teeth of one period",
+            format!("{full} full, {steeper} steeper, {shortened} shortened, {blunted} blunted"),
+            "both gears; steeper: pressure angle raised up to 30°; shortened: to avoid undercut; blunted: pointed tip",
+        );
     }
     vec![gears, fit, mesh]
 }

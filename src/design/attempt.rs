@@ -1,8 +1,8 @@
 //! One try at a pair: settings, the gears they give, and how good those are.
 
 use super::{
-    Design, DesignError, DesignOptions, Scale, TeethStyle, ToothCount, bore_for, placed_gear,
-    placed_input,
+    Design, DesignError, DesignOptions, Scale, TeethStyle, ToothCount, bore_for, feasibility,
+    placed_gear, placed_input,
 };
 use crate::assembly::{Assembly, Gear};
 use crate::fit::{self, Fit};
@@ -270,6 +270,9 @@ impl Attempt {
         mut steps: Vec<String>,
     ) -> Result<Design, DesignError> {
         let mut warnings = self.warnings();
+        let root = options.root_clearance.unwrap_or(TeethOptions::default().root_clearance * self.pair.module);
+        let dedendum = options.addendum * self.pair.module + root;
+        warnings.extend(feasibility::warnings(&self.centrodes, &self.pair, dedendum));
         if fit.limited.shape > policy::LIMIT_WORTH_SAYING {
             steps.insert(0, format!(
                 "bounds on lean and torque changed the pitch curves by {:.3} in the measure of E_s (lean {:.0} to {:.0} degrees)",

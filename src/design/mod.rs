@@ -1,6 +1,7 @@
 //! The pipeline: two shapes in, a finished pair of gears out.
 
 mod attempt;
+mod feasibility;
 mod options;
 mod record;
 
@@ -54,6 +55,12 @@ impl Design {
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.faults.is_empty()
+    }
+
+    /// How many teeth of one period, both gears together, are full, steeper, shortened, blunted.
+    #[must_use]
+    pub fn tooth_tally(&self) -> [usize; 4] {
+        feasibility::tally(&self.pair.records)
     }
 
     /// E and its parts.

@@ -11,7 +11,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::pitch::{Centrodes, Transmission, TransmissionError, center_distance};
+use super::lipschitz::{between, envelope, smoothed};
+use crate::pitch::{Centrodes, Transmission, TransmissionError, center_distance, solve_cyclic};
 use crate::policy;
 
 /// Bounds on a law psi'.
@@ -236,7 +237,7 @@ impl Task<'_> {
         self.diffuse_until_kept(&law, detailed)
     }
 
-    /// The least even diffusion of y that keeps lean and curvature, drawn to the mean for the torque. Even diffusion never
+    /// The least even diffusion of y that keeps the lean, drawn to the mean for the torque. Even diffusion never
     /// raises the lean and ends in circles.
     fn diffuse_until_kept(
         &self,
@@ -363,58 +364,11 @@ fn log_radius(law: &[f64]) -> Vec<f64> {
     law.iter().map(|p| (p / (1.0 + p)).ln()).collect()
 }
 
-/// The least curve above `y` (`side` 1) or the greatest below it (`side` -1) that rises or falls by no more than `rise` a sample.
-fn envelope(y: &[f64], rise: f64, side: f64) -> Vec<f64> {
-    let n = y.len();
-    let mut e: Vec<f64> = y.iter().map(|v| side * v).collect();
-    // Twice round each way, since a peak may reach across the seam.
-    for i in 0..2 * n {
-        e[(i + 1) % n] = e[(i + 1) % n].max(e[i % n] - rise);
-    }
-    for i in (0..2 * n).rev() {
-        e[i % n] = e[i % n].max(e[(i + 1) % n] - rise);
-    }
-    e.iter().map(|v| side * v).collect()
-}
-
-/// A curve between the envelopes: on every stretch where they part, the mixture that changes psi' least.
-///
-/// Stretches meet where the envelopes do, so each may choose alone and the slope bound still holds.
-fn between(upper: &[f64], lower: &[f64], law: &[f64]) -> Vec<f64> {
-    let n = law.len();
-    let parted = |i: usize| upper[i % n] - lower[i % n] > policy::ENVELOPES_MEET;
-    let mixed = |i: usize, share: f64| lower[i] + share * (upper[i] - lower[i]);
-    let change = |from: usize, to: usize, share: f64| -> f64 {
-        (from..to)
-            .map(|i| {
-                let r = mixed(i % n, share).exp();
-                let d = r / (1.0 - r) - law[i % n];
-                d * d
-            })
-            .sum()
-    };
-    let mut y: Vec<f64> = (0..n).map(|i| mixed(i, 0.5)).collect();
-    let first = (0..n).find(|i| !parted(*i)).unwrap_or(0);
-    let mut i = first;
-    while i < first + n {
-        if !parted(i) {
-            i += 1;
-            continue;
-        }
-        let end = (i..first + n).find(|j| !parted(*j)).unwrap_or(first + n);
-        let cost = policy::ENVELOPE_SHARES.map(|share| (change(i, end, share), share));
-        let best = cost.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.5, |c| c.1);
-        for k in i..end {
-            y[k % n] = mixed(k % n, best);
-        }
-        i = end;
-    }
-    y
-}
-
-fn smoothed(y: &[f64]) -> Vec<f64> {
-    let n = y.len();
-    (0..n).map(|i| 0.5 * y[i] + 0.25 * (y[(i + 1) % n] + y[(i + n - 1) % n])).collect()
+/// One implicit step of diffusion, `strength` in samples squared.
+fn diffused(y: &[f64], strength: f64) -> Vec<f64> {
+    let side = vec![-strength; y.len()];
+    let diagonal = vec![1.0 + 2.0 * strength; y.len()];
+    solve_cyclic(&side, &diagonal, &side, y)
 }
 
 /// The periodic average of y under a Gaussian whose standard deviation (samples) is given at each sample.

@@ -5,11 +5,13 @@ mod clearance;
 mod flank;
 mod layout;
 mod profile;
+mod record;
 mod rolling;
 mod root;
 mod wave;
 
 pub use profile::{EdgeKind, Profile};
+pub use record::{ToothRecord, ToothShape};
 pub use rolling::Side;
 pub use wave::wave_pair;
 
@@ -66,6 +68,8 @@ pub struct ToothedPair {
     pub uncovered: [f64; 2],
     /// Pieces of envelope that had to be carved from the follower after its flanks and roots were drawn.
     pub cuts: usize,
+    /// What became of each tooth of one period of the motion; empty for wave teeth.
+    pub records: Vec<ToothRecord>,
 }
 
 /// Why no teeth could be made.
@@ -136,7 +140,8 @@ pub fn involute_pair(
     let driver = gear(Side::Driver, folds, "driver")?;
     let follower = gear(Side::Follower, centrodes.transmission.follower_fold(), "follower")?;
     let (follower, cuts) = carve_rest(&rolling, &driver, follower, module, teeth)?;
-    Ok(ToothedPair { driver, follower, module, uncovered: layout.uncovered(), cuts })
+    let records = record::records(&rolling, &layout, &rack);
+    Ok(ToothedPair { driver, follower, module, uncovered: layout.uncovered(), cuts, records })
 }
 
 /// Carves from the follower what flanks and roots left standing in the driver's way.

@@ -159,11 +159,11 @@ fn backlash_thins_flanks_and_clearance_moves_every_face() {
 #[test]
 fn the_sweep_agrees_with_carving_by_solids() {
     let centrodes = centrodes(|phi| 1.0 + 0.25 * (2.0 * phi).cos(), 1);
-    let pair = wave_pair(&centrodes, &options(16)).unwrap();
+    let pair = wave_pair(&centrodes, &options(10)).unwrap();
     let blank = circle(60.0, 0.01);
-    let swept = carved_follower(&centrodes, &pair.driver.points, &blank, 16).unwrap();
-    let poses: Vec<(f64, f64)> = (0..2048)
-        .map(|i| TAU * f64::from(i) / 2048.0)
+    let swept = carved_follower(&centrodes, &pair.driver.points, &blank, 10).unwrap();
+    let poses: Vec<(f64, f64)> = (0..1024)
+        .map(|i| TAU * f64::from(i) / 1024.0)
         .map(|phi| (phi, centrodes.transmission.psi(phi)))
         .collect();
     let literal =

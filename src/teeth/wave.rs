@@ -75,5 +75,5 @@ pub fn wave_pair(centrodes: &Centrodes, options: &TeethOptions) -> Result<Toothe
     .ok_or(TeethError::Tangled { gear: "follower" })?;
     let cuts = carved.cuts;
     let follower = label(carved.outline).without_short_edges(policy::SHORTEST_EDGE * module);
-    Ok(ToothedPair { driver, follower, module, uncovered: [0.0; 2], cuts })
+    Ok(ToothedPair { driver, follower, module, uncovered: [0.0; 2], cuts, records: Vec::new() })
 }
