@@ -15,7 +15,8 @@ fn main() -> ExitCode {
     match cli::run(cli) {
         Ok(outcome) => outcome.exit_code(),
         Err(error) => {
-            eprintln!("error: {error:#}");
+            // One line, whatever a file name or a library's message contains.
+            eprintln!("error: {}", format!("{error:#}").replace(['\n', '\r'], " "));
             ExitCode::from(cli::BAD_INPUT)
         }
     }

@@ -49,7 +49,7 @@ pub(crate) struct DesignArgs {
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: PathBuf,
     /// Turns of the driver for one turn of the follower: a whole number or 1/whole
-    #[arg(short = 'k', long, default_value = "1", value_name = "K")]
+    #[arg(short = 'k', long, default_value = "1", value_name = "K", allow_hyphen_values = true)]
     pub(crate) ratio: String,
     /// Print the summary as JSON on standard output
     #[arg(long)]
@@ -70,7 +70,7 @@ pub(crate) struct DesignArgs {
 #[command(next_help_heading = "Reading the shapes")]
 pub(crate) struct ShapeArgs {
     /// Smoothing of the outlines, 0 (none) to 1 [default: automatic]
-    #[arg(long, value_name = "0..1", value_parser = units::fraction)]
+    #[arg(long, value_name = "0..1", value_parser = units::fraction, allow_hyphen_values = true)]
     pub(crate) smoothing: Option<f64>,
     /// Grey level that parts shape from background in images, 0 to 255 [default: automatic]
     #[arg(long, value_name = "LEVEL")]
@@ -85,16 +85,16 @@ pub(crate) struct FitArgs {
     #[arg(long, value_enum, default_value_t = SearchArg::Global)]
     pub(crate) search: SearchArg,
     /// Weight of the driver torque against likeness (omega)
-    #[arg(long, default_value = "0.2", value_name = "OMEGA", value_parser = units::zero_or_more)]
+    #[arg(long, default_value = "0.2", value_name = "OMEGA", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) torque_weight: f64,
     /// Whose likeness matters more: 1 keeps the driver, 0 the follower (t)
-    #[arg(long, default_value = "0.5", value_name = "T", value_parser = units::fraction)]
+    #[arg(long, default_value = "0.5", value_name = "T", value_parser = units::fraction, allow_hyphen_values = true)]
     pub(crate) balance: f64,
     /// Largest driver torque allowed, in multiples of the follower's [default: no limit]
-    #[arg(long, value_name = "FACTOR", value_parser = units::positive)]
+    #[arg(long, value_name = "FACTOR", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) max_torque: Option<f64>,
     /// Steepest lean of the pitch curve against its radius, degrees
-    #[arg(long, default_value = "55", value_name = "DEGREES", value_parser = units::degrees)]
+    #[arg(long, default_value = "55", value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     pub(crate) max_lean: f64,
 }
 
@@ -103,31 +103,31 @@ pub(crate) struct FitArgs {
 #[command(next_help_heading = "Teeth")]
 pub(crate) struct TeethArgs {
     /// Teeth of the driver [default: chosen from size and curvature]
-    #[arg(long, value_name = "N", conflicts_with = "module")]
+    #[arg(long, value_name = "N", conflicts_with = "module", allow_negative_numbers = true)]
     pub(crate) teeth: Option<u32>,
     /// Module: teeth are this times pi apart [default: chosen]
-    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length)]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) module: Option<f64>,
     /// Involute flanks that touch without error, or the waves of the paper
     #[arg(long, value_enum, default_value_t = StyleArg::Involute)]
     pub(crate) teeth_style: StyleArg,
     /// Pressure angle, degrees; steeper ones are used where the curve bends fast
-    #[arg(long, default_value = "20", value_name = "DEGREES", value_parser = units::degrees)]
+    #[arg(long, default_value = "20", value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     pub(crate) pressure_angle: f64,
     /// Height of a tooth above the pitch curve, in modules
-    #[arg(long, default_value = "1", value_name = "MODULES", value_parser = units::positive)]
+    #[arg(long, default_value = "1", value_name = "MODULES", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) addendum: f64,
     /// Gap left on every face of each gear
-    #[arg(long, default_value = "0.1mm", value_name = "LENGTH", value_parser = units::length_or_zero)]
+    #[arg(long, default_value = "0.1mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
     pub(crate) clearance: f64,
     /// Backlash along the pitch curve: thins the flanks only
-    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero)]
+    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
     pub(crate) backlash: f64,
     /// Extra depth of the roots below a mating tip [default: 0.25 module]
-    #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero)]
+    #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
     pub(crate) root_clearance: Option<f64>,
     /// Largest distance between a flank and its chords, in modules [default: 0.0005]
-    #[arg(long, value_name = "MODULES", value_parser = units::positive)]
+    #[arg(long, value_name = "MODULES", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) chord_tolerance: Option<f64>,
     /// Cut the follower with the exact sweep, or literally as solids with Manifold (slow)
     #[arg(long, value_enum, default_value_t = CarverArg::Sweep)]
@@ -145,16 +145,16 @@ pub(crate) struct TeethArgs {
 #[command(next_help_heading = "Size")]
 pub(crate) struct SizeArgs {
     /// Distance between the axes, or lego:N for N studs of 8 mm
-    #[arg(long, default_value = "80mm", value_name = "LENGTH", value_parser = units::center_distance)]
+    #[arg(long, default_value = "80mm", value_name = "LENGTH", value_parser = units::center_distance, allow_hyphen_values = true)]
     pub(crate) center_distance: f64,
     /// Largest extent of the pair, instead of the distance between the axes
-    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, conflicts_with = "center_distance")]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, conflicts_with = "center_distance", allow_hyphen_values = true)]
     pub(crate) size: Option<f64>,
     /// Thickness of the gears
-    #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length)]
+    #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) thickness: f64,
     /// Hole for the axle: a diameter, lego, or none [default: 5mm, or less where there is no room]
-    #[arg(long, value_name = "BORE", value_parser = units::bore)]
+    #[arg(long, value_name = "BORE", value_parser = units::bore, allow_hyphen_values = true)]
     pub(crate) bore: Option<Bore>,
 }
 

@@ -8,7 +8,7 @@ use centrode::design::{
     BoreChoice, Design, DesignOptions, Record, Scale, TeethStyle, ToothCount, design,
 };
 use centrode::export::{
-    Export, Glb, Obj, Parts, Stl, prepare_folder, write_atomically, write_json,
+    Export, ExportError, Glb, Obj, Parts, Staging, Stl, write_atomically, write_json,
 };
 use centrode::fit::{FitOptions, Limits, Ratio, Search};
 use centrode::outline::{LoadOptions, Shape, Smoothing, load};
@@ -22,7 +22,6 @@ use super::{Outcome, report};
 pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     let start = Instant::now();
     let options = options(args)?;
-    prepare_folder(&args.output)?;
     let progress = Progress::new();
     progress.doing("reading the shapes");
     let [driver, follower] = read(args)?;
@@ -113,7 +112,13 @@ fn bail_unsound(made: &Design, args: &DesignArgs) -> anyhow::Result<()> {
 }
 
 fn write(made: &Design, meshes: &[Mesh], args: &DesignArgs) -> anyhow::Result<Vec<PathBuf>> {
-    let folder: &Path = &args.output;
+    let staging = Staging::new(&args.output)?;
+    let files = write_into(staging.path(), made, meshes)
+        .map_err(|error| staging.told_of_the_final_place(error))?;
+    Ok(staging.publish(&files)?)
+}
+
+fn write_into(folder: &Path, made: &Design, meshes: &[Mesh]) -> Result<Vec<PathBuf>, ExportError> {
     let parts = Parts { assembly: &made.assembly, meshes };
     let formats: [&dyn Export; 3] = [&Glb::default(), &Stl, &Obj];
     let mut files = Vec::new();

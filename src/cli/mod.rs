@@ -9,6 +9,7 @@ mod units;
 
 pub(crate) use args::Cli;
 use args::Command;
+use clap::error::ErrorKind;
 use std::process::ExitCode;
 
 /// Exit code for bad input; nothing was written.
@@ -42,9 +43,34 @@ pub(crate) fn run(cli: Cli) -> anyhow::Result<Outcome> {
     }
 }
 
-/// Prints what clap has to say; help and version are no errors.
+/// Prints what clap has to say; help and version are no errors, errors take one line.
 pub(crate) fn refused(error: &clap::Error) -> ExitCode {
-    // A closed pipe is no reason to fail harder.
-    let _ = error.print();
+    if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        // A closed pipe is no reason to fail harder.
+        let _ = error.print();
+    } else {
+        eprintln!("{}", in_one_line(&error.to_string()));
+    }
     if error.use_stderr() { ExitCode::from(BAD_INPUT) } else { ExitCode::SUCCESS }
+}
+
+/// What clap says on several lines, without the usage, on one.
+fn in_one_line(said: &str) -> String {
+    let relevant = said.lines().take_while(|line| !line.starts_with("Usage:"));
+    let parts: Vec<&str> = relevant
+        .map(str::trim)
+        .filter(|line| !line.is_empty() && !line.starts_with("For more information"))
+        .collect();
+    format!("{} (--help lists the options)", parts.join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn usage_errors_fit_one_line() {
+        let said = "error: required:\n  <DRIVER>\n\nUsage: centrode\n\nFor more information, try\n";
+        assert_eq!(in_one_line(said), "error: required: <DRIVER> (--help lists the options)");
+    }
 }

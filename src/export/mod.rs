@@ -9,12 +9,14 @@ mod glb;
 mod json;
 mod keys;
 mod obj;
+mod staging;
 mod stl;
 
 pub use atomic::{ExportError, prepare_folder, write_atomically};
 pub use glb::Glb;
 pub use json::write_json;
 pub use obj::Obj;
+pub use staging::Staging;
 pub use stl::Stl;
 
 use crate::assembly::Assembly;
