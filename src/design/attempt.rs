@@ -163,6 +163,7 @@ impl Attempt {
         let pair = match options.style {
             TeethStyle::Involute => teeth::involute_pair(&centrodes, &teeth_options)?,
             TeethStyle::Wave => teeth::wave_pair(&centrodes, &teeth_options)?,
+            TeethStyle::RegularWave => teeth::regular_wave_pair(&centrodes, &teeth_options)?,
         };
         let inset = |profile: &Profile| {
             profile

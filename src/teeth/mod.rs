@@ -11,7 +11,7 @@ mod wave;
 
 pub use profile::{EdgeKind, Profile};
 pub use rolling::Side;
-pub use wave::wave_pair;
+pub use wave::{regular_wave_pair, wave_pair};
 
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
