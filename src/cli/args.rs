@@ -108,7 +108,7 @@ pub(crate) struct TeethArgs {
     /// Module: teeth are this times pi apart [default: chosen]
     #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) module: Option<f64>,
-    /// Involute flanks that touch without error, or the waves of the paper
+    /// Involute flanks that touch without error, or the waves of the paper (with or without Eq. 17)
     #[arg(long, value_enum, default_value_t = StyleArg::Involute)]
     pub(crate) teeth_style: StyleArg,
     /// Pressure angle, degrees; steeper ones are used where the curve bends fast
@@ -174,6 +174,8 @@ pub(crate) enum StyleArg {
     Involute,
     /// Waves with the heights of Eq. 17
     Wave,
+    /// Waves all of one height
+    RegularWave,
 }
 
 /// What carves the follower.

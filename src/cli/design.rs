@@ -66,6 +66,7 @@ fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
         style: match args.teeth.teeth_style {
             StyleArg::Involute => TeethStyle::Involute,
             StyleArg::Wave => TeethStyle::Wave,
+            StyleArg::RegularWave => TeethStyle::RegularWave,
         },
         carve_with_solids: args.teeth.carve_with == CarverArg::Manifold,
         pressure_angle: args.teeth.pressure_angle,

@@ -164,6 +164,7 @@ impl Attempt {
         let pair = match options.style {
             TeethStyle::Involute => teeth::involute_pair(&centrodes, &teeth_options)?,
             TeethStyle::Wave => teeth::wave_pair(&centrodes, &teeth_options)?,
+            TeethStyle::RegularWave => teeth::regular_wave_pair(&centrodes, &teeth_options)?,
         };
         let pair = if options.carve_with_solids { carved_by_solids(&centrodes, pair, options)? } else { pair };
         let inset = |profile: &Profile| {

@@ -26,6 +26,8 @@ pub enum TeethStyle {
     Involute,
     /// The paper's waves (section 5.3) with heights by Eq. 17, the follower carved.
     Wave,
+    /// The paper's waves, all of one height, the follower carved: what Eq. 17 is measured against.
+    RegularWave,
 }
 
 /// How large the pair is made.

@@ -13,7 +13,7 @@ mod wave;
 pub use profile::{EdgeKind, Profile};
 pub use record::{ToothRecord, ToothShape};
 pub use rolling::Side;
-pub use wave::wave_pair;
+pub use wave::{regular_wave_pair, wave_pair};
 
 use crate::geometry::Point;
 use crate::pitch::{Centrodes, Transmission};

@@ -14,6 +14,28 @@ use crate::policy;
 /// # Errors
 /// See [`TeethError`].
 pub fn wave_pair(centrodes: &Centrodes, options: &TeethOptions) -> Result<ToothedPair, TeethError> {
+    carved_waves(centrodes, options, &|lean, module| {
+        0.5 * std::f64::consts::PI * module * lean.abs().tan() + policy::WAVE_TOLERANCE * module
+    })
+}
+
+/// Wave teeth of one height, whatever the lean: the paper's regular teeth, which Eq. 17 improves on.
+///
+/// # Errors
+/// See [`TeethError`].
+pub fn regular_wave_pair(
+    centrodes: &Centrodes,
+    options: &TeethOptions,
+) -> Result<ToothedPair, TeethError> {
+    carved_waves(centrodes, options, &|_, _| 0.0)
+}
+
+/// Waves as high as `wanted` (mm) for a lean (radians) and a module (mm), within the bounds on any wave.
+fn carved_waves(
+    centrodes: &Centrodes,
+    options: &TeethOptions,
+    wanted: &dyn Fn(f64, f64) -> f64,
+) -> Result<ToothedPair, TeethError> {
     let rolling = Rolling::new(centrodes);
     let folds = centrodes.transmission.driver_fold();
     let teeth = options.teeth_per_period(folds)?;
@@ -21,10 +43,9 @@ pub fn wave_pair(centrodes: &Centrodes, options: &TeethOptions) -> Result<Toothe
     let module = pitch / std::f64::consts::PI;
     let heights: Vec<f64> = (0..teeth)
         .map(|j| {
-            let lean = centrodes.lean(rolling.driver_angle(j as f64 * pitch)).abs();
+            let lean = centrodes.lean(rolling.driver_angle(j as f64 * pitch));
             let regular = policy::WAVE_HEIGHT * options.addendum * module;
-            let wanted = 0.5 * pitch * lean.tan() + policy::WAVE_TOLERANCE * module;
-            wanted.clamp(regular, policy::WAVE_TALLEST * module)
+            wanted(lean, module).min(policy::WAVE_TALLEST * module).max(regular)
         })
         .collect();
     // Height at any arc length: a smooth blend between the teeth on either side.
