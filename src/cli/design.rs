@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use anyhow::bail;
 use centrode::design::{
     BoreChoice, Design, DesignOptions, Record, Scale, TeethStyle, ToothCount, design,
 };
@@ -29,7 +28,8 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     let made = design(&driver, &follower, &options)?;
     if !made.is_sound() && !args.teeth.force {
         progress.done();
-        bail_unsound(&made, args)?;
+        eprintln!("error: {}", unsound(&made, args));
+        return Ok(Outcome::NotSound);
     }
     progress.doing("making solids");
     let meshes = assembly_solids(&made.assembly)?;
@@ -98,16 +98,15 @@ fn read(args: &DesignArgs) -> anyhow::Result<[Shape; 2]> {
     Ok([load(&args.driver, &options)?, load(&args.follower, &options)?])
 }
 
-fn bail_unsound(made: &Design, args: &DesignArgs) -> anyhow::Result<()> {
+fn unsound(made: &Design, args: &DesignArgs) -> String {
     let hint = if args.teeth.strict {
         "without --strict gentler settings are tried"
     } else {
         "--force writes the files all the same"
     };
-    bail!(
-        "{} and {} do not make a sound pair: {} ({hint})",
-        made.names[0],
-        made.names[1],
+    let [driver, follower] = &made.names;
+    format!(
+        "{driver} and {follower} do not make a sound pair, so nothing was written: {} ({hint})",
         made.faults.join("; ")
     )
 }
