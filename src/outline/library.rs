@@ -77,8 +77,10 @@ pub fn svg(name: &str) -> Option<&'static str> {
 #[must_use]
 pub fn nearest(name: &str) -> Option<&'static str> {
     let wanted: Vec<char> = name.to_lowercase().chars().take(64).collect();
-    let rated = names().map(|known| (edit_distance(&wanted, known), known));
-    let (distance, best) = rated.min()?;
+    // Of two names as near, the one of like length: letters are swapped more often than lost.
+    let rated = names()
+        .map(|known| (edit_distance(&wanted, known), known.len().abs_diff(wanted.len()), known));
+    let (distance, _, best) = rated.min()?;
     (distance <= 1 + best.len() / 3).then_some(best)
 }
 

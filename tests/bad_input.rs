@@ -1,0 +1,329 @@
+//! Bad input is answered by one clear line and exit code 2, and leaves nothing behind.
+
+mod common;
+
+use common::{centrode, complaint, tree};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+/// Longest time any refusal may take, also in an unoptimised build on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A folder for drawings and one, not there yet, for output.
+struct Bench {
+    top: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        Self { top: tempfile::tempdir().unwrap() }
+    }
+
+    fn output(&self) -> PathBuf {
+        self.top.path().join("out")
+    }
+
+    fn file(&self, name: &str, content: impl AsRef<[u8]>) -> String {
+        let path = self.top.path().join(name);
+        fs::write(&path, content).unwrap();
+        path.to_string_lossy().into_owned()
+    }
+
+    /// Whether the drawing is refused, as driver and as follower, with the words.
+    fn refuses(&self, drawing: &str, words: &[&str]) {
+        for shapes in [[drawing, "heart"], ["heart", drawing]] {
+            let text = self.refuses_options(&shapes, words);
+            assert!(text.contains(drawing), "the drawing is not named: {text}");
+        }
+    }
+
+    /// Whether these arguments are refused: once with no output folder, once with a full one.
+    fn refuses_options(&self, arguments: &[&str], words: &[&str]) -> String {
+        let output = self.output();
+        let run = || {
+            let place = ["-o".as_ref(), output.as_os_str()];
+            let start = Instant::now();
+            let said =
+                centrode(["design"].iter().chain(arguments).map(std::ffi::OsStr::new).chain(place));
+            assert!(start.elapsed() < PATIENCE, "{arguments:?} took {:?}", start.elapsed());
+            said
+        };
+        one_clear_line(&run(), words);
+        assert!(!output.exists(), "{arguments:?} made the output folder");
+        fs::create_dir(&output).unwrap();
+        fs::write(output.join("design.json"), "older").unwrap();
+        let text = one_clear_line(&run(), words);
+        assert_eq!(tree(&output), [output.join("design.json")]);
+        assert_eq!(fs::read_to_string(output.join("design.json")).unwrap(), "older");
+        fs::remove_dir_all(&output).unwrap();
+        text
+    }
+}
+
+/// The one line on standard error of a run that refused its input.
+fn one_clear_line(said: &Output, words: &[&str]) -> String {
+    let text = complaint(said);
+    assert_eq!(said.status.code(), Some(2), "{text}");
+    assert!(said.stdout.is_empty(), "{}", String::from_utf8_lossy(&said.stdout));
+    assert_eq!(text.trim_end().lines().count(), 1, "{text}");
+    assert!(text.starts_with("error: ") && !text.contains("panicked"), "{text}");
+    for word in words {
+        assert!(text.contains(word), "`{word}` is missing: {text}");
+    }
+    text
+}
+
+fn svg(body: &str) -> String {
+    format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' \
+         viewBox='0 0 100 100'>{body}</svg>"
+    )
+}
+
+fn picture(width: u32, height: u32, color: impl Fn(u32, u32) -> u8) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image::GrayImage::from_fn(width, height, |x, y| image::Luma([color(x, y)]))
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .unwrap();
+    bytes.into_inner()
+}
+
+#[test]
+fn files_that_are_missing_or_no_drawings() {
+    let bench = Bench::new();
+    bench.refuses("no/such/file.svg", &["no such file", "check the path"]);
+    bench.refuses("haert", &["did you mean `heart`"]);
+    bench.refuses(&bench.file("a.png", "this is no image"), &["; "]);
+    bench.refuses(&bench.file("a.docx", "neither is this"), &["use SVG, PNG"]);
+    bench.refuses(&bench.file("cut.png", &picture(40, 40, |_, _| 0)[..60]), &["; "]);
+    bench.refuses(&bench.file("empty.png", ""), &["empty"]);
+    let folder = bench.top.path().to_string_lossy().into_owned();
+    bench.refuses(&folder, &["folder"]);
+}
+
+#[test]
+fn svg_drawings_without_a_shape() {
+    let bench = Bench::new();
+    for (name, body, word) in [
+        ("empty.svg", "", "draws nothing"),
+        ("text.svg", "<text x='9' y='50'>gear</text>", "only text"),
+        ("open.svg", "<path d='M10 10H90V90'/>", "open"),
+        ("line.svg", "<path d='M10 10H90Z' fill='none' stroke='black'/>", "filled"),
+        ("flat.svg", "<path d='M10 10L90 90L50 50Z'/>", "; "),
+        ("nan.svg", "<path d='M10 NaN L90 90 L50 10Z'/>", "; "),
+    ] {
+        bench.refuses(&bench.file(name, svg(body)), &[word]);
+    }
+    bench.refuses(&bench.file("xml.svg", "<svg"), &["XML"]);
+    let flat = "<svg xmlns='http://www.w3.org/2000/svg' width='0' height='-3'><rect width='2' height='2'/></svg>";
+    bench.refuses(&bench.file("size.svg", flat), &["viewBox"]);
+}
+
+#[test]
+fn outlines_that_are_no_outlines() {
+    let bench = Bench::new();
+    let bow_tie = "0,0\n2,2\n2,0\n0,2\n";
+    bench.refuses(&bench.file("crossed.csv", bow_tie), &["crosses itself at", "redraw"]);
+    bench.refuses(&bench.file("two.csv", "0,0\n1,1\n"), &["2 distinct points"]);
+    bench.refuses(&bench.file("two.json", "[[0,0],[1,1]]"), &["2 distinct points"]);
+    bench.refuses(&bench.file("nan.csv", "0,0\n1,NaN\n2,2\n"), &["line 2"]);
+    bench.refuses(&bench.file("nan.json", "[[0,0],[1,NaN],[2,2]]"), &["line 1"]);
+    bench.refuses(&bench.file("far.csv", "0,0\n1e300,0\n0,1e300\n"), &["scale it down"]);
+    bench.refuses(&bench.file("flat.csv", "0,0\n1,1\n2,2\n3,3\n"), &["no area"]);
+}
+
+#[test]
+fn images_without_a_silhouette() {
+    let bench = Bench::new();
+    bench.refuses(&bench.file("dot.png", picture(1, 1, |_, _| 0)), &["; "]);
+    bench.refuses(&bench.file("white.png", picture(200, 100, |_, _| 255)), &["; "]);
+    bench.refuses(&bench.file("black.png", picture(200, 100, |_, _| 0)), &["; "]);
+}
+
+/// A real one: a bilevel PNG of 20,000 x 20,000 with a disc in it, a few kilobytes long.
+#[test]
+fn images_too_large_to_decode() {
+    let bench = Bench::new();
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let side = 20_000_u32;
+    let inside = |x: u32, y: u32| x.abs_diff(side / 2) + y.abs_diff(side / 2) < side / 4;
+    let large = image::GrayImage::from_fn(side, side, |x, y| {
+        image::Luma([if inside(x, y) { 0 } else { 255 }])
+    });
+    large.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    bench.refuses(&bench.file("large.png", bytes.get_ref()), &["20000", "; "]);
+}
+
+#[test]
+fn use_elements_that_multiply() {
+    let bench = Bench::new();
+    let mut bomb = "<defs><rect id='a0' width='1' height='1'/>".to_owned();
+    for level in 1..=20 {
+        let copy = format!("<use xlink:href='#a{}'/>", level - 1);
+        bomb += &format!("<g id='a{level}'>{copy}{copy}</g>");
+    }
+    bomb += "</defs><use xlink:href='#a20'/>";
+    bench.refuses(&bench.file("bomb.svg", svg(&bomb)), &["`use`"]);
+    let circle = "<g id='a'><use href='#b'/></g><g id='b'><use href='#a'/></g>";
+    bench.refuses(&bench.file("circle.svg", svg(circle)), &["refers back"]);
+    let deep =
+        format!("{}<rect width='9' height='9'/>{}", "<g>".repeat(50_000), "</g>".repeat(50_000));
+    bench.refuses(&bench.file("deep.svg", svg(&deep)), &["; "]);
+    let mut entities = "<!DOCTYPE svg [<!ENTITY e0 'ha'>".to_owned();
+    for level in 1..=20 {
+        entities += &format!("<!ENTITY e{level} '&e{0};&e{0};'>", level - 1);
+    }
+    let laughs = entities + "]>" + &svg("<text>&e20;</text>");
+    bench.refuses(&bench.file("laughs.svg", laughs), &["; "]);
+}
+
+/// A server and a file that a drawing refers to: neither may be touched.
+#[test]
+fn external_references_are_never_fetched() {
+    let bench = Bench::new();
+    let server = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    server.set_nonblocking(true).unwrap();
+    let address = server.local_addr().unwrap();
+    let other = bench.file("other.svg", svg("<circle id='c' cx='50' cy='50' r='40'/>"));
+    let photo =
+        bench.file("other.png", picture(40, 40, |x, y| if x.max(y) < 20 { 0 } else { 255 }));
+    for (name, body) in [
+        ("use.svg", format!("<use xlink:href='http://{address}/a.svg#c'/>")),
+        ("image.svg", format!("<image width='90' height='90' href='http://{address}/a.png'/>")),
+        ("file.svg", format!("<use href='{other}#c'/>")),
+        ("uri.svg", format!("<image width='90' height='90' href='file://{photo}'/>")),
+        ("near.svg", "<image width='90' height='90' href='other.png'/>".to_owned()),
+    ] {
+        bench.refuses(&bench.file(name, svg(&body)), &["never fetched"]);
+    }
+    let style = format!("<style>@import url('http://{address}/a.css');</style>");
+    bench.refuses(&bench.file("style.svg", svg(&style)), &["draws nothing"]);
+    let entity = format!("<!DOCTYPE svg [<!ENTITY e SYSTEM 'file://{other}'>]>");
+    bench.refuses(&bench.file("entity.svg", entity + &svg("<g>&e;</g>")), &["; "]);
+    let waiting = server.accept().map_err(|e| e.kind());
+    assert_eq!(waiting.err(), Some(std::io::ErrorKind::WouldBlock), "something was fetched");
+}
+
+#[test]
+fn sizes_that_are_zero_negative_or_no_lengths() {
+    let bench = Bench::new();
+    for option in ["--center-distance", "--size", "--thickness", "--module", "--bore"] {
+        for value in ["0", "-5mm", "nan", "inf", "wide", "1e300m"] {
+            bench.refuses_options(&["heart", "dove", option, value], &[]);
+        }
+    }
+    for option in ["--clearance", "--backlash", "--root-clearance"] {
+        bench.refuses_options(&["heart", "dove", option, "-0.1mm"], &[option, "0 or more"]);
+    }
+    bench.refuses_options(&["heart", "dove", "--center-distance", "lego:0"], &["lego:10"]);
+    bench.refuses_options(&["heart", "dove", "--size", "-5mm"], &["--size", "such as 80mm"]);
+    for [option, value] in [
+        ["--teeth", "0"],
+        ["--teeth", "-3"],
+        ["--teeth", "4000000000"],
+        ["--chord-tolerance", "0"],
+        ["--addendum", "-1"],
+        ["--pressure-angle", "90"],
+        ["--max-lean", "-10"],
+        ["--max-torque", "0.5"],
+        ["--balance", "2"],
+        ["--torque-weight", "-1"],
+        ["--smoothing", "7"],
+        ["--threshold", "999"],
+        ["--search", "luck"],
+    ] {
+        bench.refuses_options(&["heart", "dove", option, value], &[]);
+    }
+    // More than the gear has room for.
+    bench.refuses_options(&["heart", "dove", "--bore", "70mm", "--search", "paper"], &["; "]);
+}
+
+#[test]
+fn ratios_that_are_no_ratios() {
+    let bench = Bench::new();
+    for ratio in ["0", "7/3", "-1", "1/0", "2.5", "nan", "", "1000000"] {
+        bench.refuses_options(&["heart", "dove", "-k", ratio], &["whole number"]);
+    }
+}
+
+#[test]
+fn arguments_that_are_missing_or_unknown() {
+    for arguments in [vec!["design", "heart"], vec!["design", "heart", "dove"], vec!["turn"]] {
+        one_clear_line(&centrode(&arguments), &["--help"]);
+    }
+    let bench = Bench::new();
+    bench.refuses_options(&["heart", "dove", "--teht", "12"], &["--teht", "--teeth"]);
+}
+
+/// Permissions do not bind the superuser; a file in the way does.
+#[test]
+fn a_folder_that_cannot_be_made() {
+    let bench = Bench::new();
+    let plain = bench.file("plain", "kept");
+    for place in [plain.clone(), format!("{plain}/out"), "/proc/none/out".to_owned()] {
+        let said = centrode(["design", "heart", "dove", "--search", "paper", "-o", &place]);
+        one_clear_line(&said, &["cannot write", "choose a folder"]);
+    }
+    assert_eq!(fs::read_to_string(&plain).unwrap(), "kept");
+}
+
+/// A small file system of its own, taken down when dropped; none where mounting is not allowed.
+struct Mount(tempfile::TempDir);
+
+impl Mount {
+    fn new(options: &str) -> Option<Self> {
+        let place = tempfile::tempdir().unwrap();
+        let said = Command::new("mount")
+            .args(["-t", "tmpfs", "-o", options, "tmpfs"])
+            .arg(place.path())
+            .output();
+        match said {
+            Ok(said) if said.status.success() => Some(Self(place)),
+            Ok(said) => {
+                eprintln!("skipped: no file system may be mounted here: {}", complaint(&said));
+                None
+            }
+            Err(error) => {
+                eprintln!("skipped: there is no mount command: {error}");
+                None
+            }
+        }
+    }
+
+    fn path(&self) -> &Path {
+        self.0.path()
+    }
+}
+
+impl Drop for Mount {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg(self.path()).status();
+    }
+}
+
+#[test]
+fn a_disk_that_is_full() {
+    let Some(disk) = Mount::new("size=64k") else { return };
+    let place = disk.path().join("deep/out");
+    let run = || {
+        centrode(["design", "heart", "dove", "--search", "paper", "-o", &place.to_string_lossy()])
+    };
+    one_clear_line(&run(), &["no space left", "free some"]);
+    assert!(tree(disk.path()).is_empty(), "left behind: {:?}", tree(disk.path()));
+    fs::create_dir_all(&place).unwrap();
+    fs::write(place.join("pair.glb"), "older").unwrap();
+    one_clear_line(&run(), &["no space left", "free some"]);
+    assert_eq!(tree(&place), [place.join("pair.glb")]);
+    assert_eq!(fs::read_to_string(place.join("pair.glb")).unwrap(), "older");
+}
+
+#[test]
+fn a_disk_that_is_read_only() {
+    let Some(disk) = Mount::new("size=64k,ro") else { return };
+    let place = disk.path().join("out");
+    let said =
+        centrode(["design", "heart", "dove", "--search", "paper", "-o", &place.to_string_lossy()]);
+    one_clear_line(&said, &["cannot write", "choose a folder"]);
+}

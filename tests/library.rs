@@ -1,0 +1,42 @@
+//! The library: load, fit, design, without touching a folder.
+
+use centrode::design::{DesignOptions, design};
+use centrode::fit::{FitOptions, Ratio, Search, fit};
+use centrode::outline::{LoadOptions, Shape, load};
+
+fn shape(name: &str) -> Shape {
+    load(name, &LoadOptions::default()).unwrap()
+}
+
+#[test]
+fn two_names_become_gears_in_a_dozen_lines() {
+    let (driver, follower) = (shape("egg"), shape("drop"));
+    let made = design(&driver, &follower, &DesignOptions::new(Ratio::ONE)).unwrap();
+    assert!(made.is_sound(), "{:?}", made.faults);
+    assert_eq!(made.names, ["egg", "drop"]);
+    assert_eq!(made.teeth[0], made.teeth[1]);
+    let [first, second] = &made.assembly.gears[..] else { panic!("not two gears") };
+    assert!((second.axis.x - first.axis.x - 80.0).abs() < 1e-9);
+    assert!(made.likeness.iter().all(|l| (0.5..=1.0).contains(l)), "{:?}", made.likeness);
+}
+
+#[test]
+fn the_global_search_is_never_worse_than_the_paper() {
+    let two = Ratio::integer(2).unwrap();
+    let half = Ratio::reciprocal(2).unwrap();
+    let pairs = [
+        ("heart", "dove", Ratio::ONE),
+        ("fish", "butterfly", Ratio::ONE),
+        ("bell", "candy", two),
+        ("candy", "bell", half),
+    ];
+    for (driver, follower, ratio) in pairs {
+        let (a, b) = (shape(driver).outline, shape(follower).outline);
+        let total = |search| {
+            let options = FitOptions { search, ..FitOptions::default() };
+            fit(&a, &b, ratio, &options).unwrap().objective.total
+        };
+        let (global, paper) = (total(Search::Global), total(Search::Paper));
+        assert!(global <= paper, "{driver} {follower}: {global} against {paper}");
+    }
+}
