@@ -89,7 +89,7 @@ impl Canvas {
     /// An open curve, dashed.
     pub(crate) fn dashed(&mut self, points: &[Point], ink: &str, width: f64) {
         let path = self.path(points);
-        let dashes = format!(" stroke-dasharray=\"{:.3}\"", self.unit);
+        let dashes = format!(" stroke-dasharray=\"{:.3}\"", 0.6 * self.unit);
         self.stroke(&path, "none", ink, width, &dashes);
     }
 

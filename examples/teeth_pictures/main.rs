@@ -232,7 +232,7 @@ fn undercut(design: &Design) -> anyhow::Result<String> {
         below().find(|&d| speed(u, sigma, d) < 0.0).context("no flank of this pair is undercut")?;
     let at = |d: f64| rolling.flank(u, sigma, alpha, u - sigma * d);
     let turn = |p: Point| rotate(p, rolling.angle(u));
-    let mut canvas = Canvas::window(turn(at(0.0)), 3.6 * module, 2.8 * module);
+    let mut canvas = Canvas::window(turn(at(0.0)), 2.2 * module, 1.7 * module);
     canvas.ring(&placed(&design.pair.driver.points, rolling.angle(u), 0.0), LIGHT, DARK, 0.12);
     canvas.ring(&placed(&c.driver_curve(720), rolling.angle(u), 0.0), "none", ORANGE, 0.2);
     let run = |from: f64, to: f64| -> Vec<Point> {
@@ -241,7 +241,7 @@ fn undercut(design: &Design) -> anyhow::Result<String> {
     canvas.line(&run(3.2 * module, delta), RED, 0.25);
     canvas.dashed(&run(delta, -3.0 * module), RED, 0.25);
     canvas.dot(turn(at(delta)), 0.5, RED);
-    canvas.text(turn(at(delta)) + Vector::new(-1.0, -0.5) * module, "cusp");
+    canvas.text(turn(at(delta)) + Vector::new(-0.35, -0.15) * module, "cusp");
     Ok(canvas.finish("A flank and its cusp, at the rack's own pressure angle"))
 }
 
