@@ -1,6 +1,6 @@
 //! Gears for a motion given as a formula, without any drawing.
 //!
-//! usage: cargo run --example motion_law -- LAW [--teeth N] [--distance MM] [--output FILE]
+//! usage: cargo run --example motion_law -- LAW [--teeth N] [--distance MM] [--chords MODULES] [--output FILE]
 //!
 //! LAW is `circle`, `ellipse` (about its focus, eccentricity 0.3), `lobes` (psi' = 1 + 0.3 cos 2 phi) or `half`
 //! (two driver turns for one of the follower, psi' = 0.5 (1 + 0.3 cos phi)). The file has the fields of
@@ -21,14 +21,16 @@ const SAMPLES: usize = 2048;
 fn main() -> anyhow::Result<()> {
     let mut words = std::env::args().skip(1);
     let name = words.next().context("name a law: circle, ellipse, lobes or half")?;
-    let (mut teeth, mut center_distance, mut output) = (32, 80.0, None);
+    let mut options = TeethOptions::default();
+    let (mut center_distance, mut output) = (80.0, None);
     while let Some(word) = words.next() {
         let value = words.next().with_context(|| format!("give a value after {word}"))?;
         match word.as_str() {
-            "--teeth" => teeth = value.parse()?,
+            "--teeth" => options.driver_teeth = value.parse()?,
             "--distance" => center_distance = value.parse()?,
+            "--chords" => options.chord_tolerance = value.parse()?,
             "--output" => output = Some(value),
-            _ => bail!("{word} is no option; use --teeth, --distance or --output"),
+            _ => bail!("{word} is no option; use --teeth, --distance, --chords or --output"),
         }
     }
 
@@ -37,7 +39,7 @@ fn main() -> anyhow::Result<()> {
     let transmission = Transmission::from_derivative(&samples, 1, follower_fold)?;
     let centrodes = Centrodes { transmission, center_distance };
 
-    let options = TeethOptions { driver_teeth: teeth, ..TeethOptions::default() };
+    let teeth = options.driver_teeth;
     let pair = involute_pair(&centrodes, &options)?;
 
     let motion = &centrodes.transmission;

@@ -18,7 +18,12 @@ pub(crate) struct Canvas {
     unit: f64,
     body: String,
     panels: usize,
+    /// Middle and reach of what can be seen; beyond it curves are thinned.
+    seen: (Point, f64),
 }
+
+/// Points kept of a curve outside the picture: one in so many.
+const THINNING: usize = 10;
 
 impl Canvas {
     /// A picture of everything in `points`, with a margin in mm.
@@ -35,7 +40,14 @@ impl Canvas {
     }
 
     fn spanning(low: Point, high: Point) -> Self {
-        Self { low, high, unit: (high.x - low.x) / 100.0, body: String::new(), panels: 0 }
+        Self {
+            low,
+            high,
+            unit: (high.x - low.x) / 100.0,
+            body: String::new(),
+            panels: 0,
+            seen: (low + 0.5 * (high - low), (high - low).norm()),
+        }
     }
 
     fn path(&self, points: &[Point]) -> String {
@@ -57,7 +69,14 @@ impl Canvas {
 
     /// A closed curve.
     pub(crate) fn ring(&mut self, points: &[Point], fill: &str, ink: &str, width: f64) {
-        let path = self.path(points) + "z";
+        let (middle, reach) = self.seen;
+        let kept: Vec<Point> = points
+            .iter()
+            .enumerate()
+            .filter(|(i, p)| i % THINNING == 0 || (**p - middle).norm() < reach)
+            .map(|(_, p)| *p)
+            .collect();
+        let path = self.path(&kept) + "z";
         self.stroke(&path, fill, ink, width, "");
     }
 
@@ -70,7 +89,7 @@ impl Canvas {
     /// An open curve, dashed.
     pub(crate) fn dashed(&mut self, points: &[Point], ink: &str, width: f64) {
         let path = self.path(points);
-        let dashes = format!(" stroke-dasharray=\"{:.3}\"", self.unit);
+        let dashes = format!(" stroke-dasharray=\"{:.3}\"", 0.6 * self.unit);
         self.stroke(&path, "none", ink, width, &dashes);
     }
 
@@ -134,6 +153,7 @@ impl Canvas {
     /// Everything until [`Self::end_panel`] is cut to a square.
     pub(crate) fn panel(&mut self, center: Point, half: f64) {
         self.panels += 1;
+        self.seen = (center, 1.6 * half);
         let (x, y, size, n) = (center.x - half, -center.y - half, 2.0 * half, self.panels);
         let _ = writeln!(
             self.body,

@@ -20,12 +20,13 @@ fn main() -> anyhow::Result<()> {
     let folder = std::env::args().nth(1).context("give a folder for the pictures")?;
     let folder = std::path::Path::new(&folder);
     let heart = designed("heart", "dove", 32, 55.0)?;
+    let sharp = designed("drop", "leaf", 24, 55.0)?;
     let steep = designed("dog", "bone", 64, 75.0)?;
     for (name, svg) in [
         ("frames.svg", frames(&heart)),
         ("mesh.svg", mesh(&heart)),
         ("line-of-action.svg", line_of_action(&heart)),
-        ("undercut.svg", undercut(&heart)?),
+        ("undercut.svg", undercut(&sharp)?),
         ("root.svg", root(&heart)),
         ("figure20.svg", figure20(&steep)?),
     ] {
@@ -178,7 +179,7 @@ fn mesh(design: &Design) -> String {
         canvas.dot(contact.point, 0.8, RED);
     }
     canvas.dot(pitch, 0.8, INK);
-    canvas.text(pitch + Vector::new(0.15, 0.2) * module, "P");
+    canvas.text(pitch + Vector::new(0.3, -0.45) * module, "P");
     canvas.finish("Teeth in mesh: contact normals pass through the pitch point P")
 }
 
@@ -201,7 +202,7 @@ fn line_of_action(design: &Design) -> String {
     let way = wide * Vector::new(rack.sin(), rack.cos());
     canvas.line(&[Point::from(-way), Point::from(way)], RED, 0.3);
     canvas.dot(Point::origin(), 0.7, RED);
-    canvas.text(Point::new(0.15, 0.15) * module, "P");
+    canvas.text(Point::new(0.25, -0.3) * module, "P");
     canvas.finish("Contact points of a whole cycle relative to the pitch point")
 }
 
@@ -218,27 +219,29 @@ fn undercut(design: &Design) -> anyhow::Result<String> {
         alpha.sin() + delta * curvature * alpha.cos()
     };
     let step = 0.02 * module;
-    let cusp = |u: f64, sigma: f64| {
-        (1..200).map(|i| -step * f64::from(i)).find(|&d| speed(u, sigma, d) < 0.0)
-    };
+    let below = || (1..150).map(|i| -step * f64::from(i));
+    // Where the flank runs backwards longest.
+    let backwards = |u: f64, sigma: f64| below().filter(|&d| speed(u, sigma, d) < 0.0).count();
     let teeth = (rolling.period() / pitch).round() as usize;
-    let (delta, u, sigma) = (0..teeth)
+    let (_, u, sigma) = (0..teeth)
         .flat_map(|j| [-1.0, 1.0].map(|sigma| (j as f64 * pitch + sigma * 0.25 * pitch, sigma)))
-        .filter_map(|(u, sigma)| cusp(u, sigma).map(|d| (d, u, sigma)))
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .context("no flank of this pair is undercut")?;
+        .map(|(u, sigma)| (backwards(u, sigma), u, sigma))
+        .max_by_key(|found| found.0)
+        .context("the gear has no teeth")?;
+    let delta =
+        below().find(|&d| speed(u, sigma, d) < 0.0).context("no flank of this pair is undercut")?;
     let at = |d: f64| rolling.flank(u, sigma, alpha, u - sigma * d);
     let turn = |p: Point| rotate(p, rolling.angle(u));
-    let mut canvas = Canvas::window(turn(at(0.0)), 3.6 * module, 2.8 * module);
+    let mut canvas = Canvas::window(turn(at(0.0)), 2.2 * module, 1.7 * module);
     canvas.ring(&placed(&design.pair.driver.points, rolling.angle(u), 0.0), LIGHT, DARK, 0.12);
     canvas.ring(&placed(&c.driver_curve(720), rolling.angle(u), 0.0), "none", ORANGE, 0.2);
     let run = |from: f64, to: f64| -> Vec<Point> {
         (0..=60).map(|i| turn(at(from + (to - from) * f64::from(i) / 60.0))).collect()
     };
     canvas.line(&run(3.2 * module, delta), RED, 0.25);
-    canvas.dashed(&run(delta, 2.2 * delta - module), RED, 0.25);
+    canvas.dashed(&run(delta, -3.0 * module), RED, 0.25);
     canvas.dot(turn(at(delta)), 0.5, RED);
-    canvas.text(turn(at(delta)) + Vector::new(-0.9, -0.45) * module, "cusp");
+    canvas.text(turn(at(delta)) + Vector::new(-0.35, -0.15) * module, "cusp");
     Ok(canvas.finish("A flank and its cusp, at the rack's own pressure angle"))
 }
 
