@@ -14,11 +14,9 @@ pub const MAX_NEWTON_STEPS: usize = 60;
 
 // ---- Teeth ---------------------------------------------------------------------------------
 
-/// Fewest intervals of the arc-length table over one period. Five-point quadrature on each is
-/// exact to rounding for curves that bend on the scale of a tooth.
-pub const ROLLING_INTERVALS: usize = 512;
-/// Newton steps from the table's linear guess to the driver angle; each squares the error.
-pub const ROLLING_NEWTON_STEPS: usize = 2;
+/// Fewest intervals of the arc-length table over one period. A quintic on each is exact to 1e-12 of
+/// a radian for curves that bend on the scale of a tooth; more only take time to build.
+pub const ROLLING_INTERVALS: usize = 4096;
 /// Newton steps of a perpendicular foot; it starts within a fraction of a tooth.
 pub const FOOT_NEWTON_STEPS: usize = 8;
 /// A foot is found when it moves by less than this fraction of the pitch curve.
@@ -84,6 +82,10 @@ pub const INSET_SHARPEST: f64 = 0.05;
 pub const CARVE_CHUNKS: usize = 128;
 /// Instants of carving per driver tooth: corner paths between them are chords, 1e-4 module off at most.
 pub const CARVE_INSTANTS_PER_TOOTH: usize = 32;
+/// Neighbouring corners of the tool that are first looked at together.
+pub const CARVE_BLOCK: usize = 16;
+/// Sectors of the blank in which its greatest radius is kept for that look.
+pub const CARVE_SECTORS: usize = 128;
 /// Reach of an envelope piece into the tool, in modules: less than half the thinnest top land.
 pub const CARVE_DEPTH: f64 = 0.05;
 /// The driver is shrunk by this before it may carve a follower that already has conjugate flanks, in
@@ -94,6 +96,9 @@ pub const CARVE_SKIN: f64 = 1e-3;
 /// Poses of one contact analysis, over a whole cycle. Twenty and more a tooth on gears of 64
 /// teeth; fewer can step over a contact that is lost for a moment.
 pub const CONTACT_POSES: usize = 1440;
+/// Poses at which a pair is judged while settings are still tried: ten a tooth of a common gear.
+/// The delivered pair is judged at all of them.
+pub const CONTACT_POSES_TRIED: usize = 480;
 
 /// Surfaces closer than this, in modules, count as touching when teeth in contact are counted.
 /// It must exceed the chord error of the outlines (0.002 module), or faceted flanks count as
@@ -120,6 +125,8 @@ pub const CONTACT_MAX_CELLS: f64 = 1e6;
 
 /// Consecutive points tested as one against the distance field before each is tested alone.
 pub const CONTACT_BLOCK: usize = 8;
+/// Blocks that are first looked at together: about a tooth.
+pub const CONTACT_GROUP: usize = 8;
 
 /// Interference, in modules, beyond which a pose is given up as jammed: the teeth are through each
 /// other, and how far is of no use to anyone.

@@ -174,13 +174,29 @@ impl Attempt {
                 .ok_or(TeethError::NothingLeft { clearance: options.clearance })
         };
         let finished = [inset(&pair.driver)?, inset(&pair.follower)?];
-        let exact = contact(&centrodes, module, [&pair.driver, &pair.follower])?;
+        let poses = policy::CONTACT_POSES_TRIED;
+        let exact = contact(None, poses, &centrodes, module, [&pair.driver, &pair.follower])?;
         let contact = if options.clearance == 0.0 {
             exact.clone()
         } else {
-            contact(&centrodes, module, [&finished[0], &finished[1]])?
+            contact(None, poses, &centrodes, module, [&finished[0], &finished[1]])?
         };
         Ok(Self { settings, centrodes, pair, finished, exact, contact, rounding })
+    }
+
+    /// The attempt with its contact analysed at every pose that a delivered pair is judged by.
+    pub(super) fn confirmed(mut self, options: &DesignOptions) -> Result<Self, DesignError> {
+        let poses = policy::CONTACT_POSES;
+        let (centrodes, module) = (&self.centrodes, self.pair.module);
+        let gears = [&self.pair.driver, &self.pair.follower];
+        self.exact = contact(Some(self.exact), poses, centrodes, module, gears)?;
+        self.contact = if options.clearance == 0.0 {
+            self.exact.clone()
+        } else {
+            let gears = [&self.finished[0], &self.finished[1]];
+            contact(Some(self.contact), poses, centrodes, module, gears)?
+        };
+        Ok(self)
     }
 
     /// 99th percentile of the transmission error without clearance, in pitches.
@@ -206,8 +222,10 @@ impl Attempt {
     /// To compare attempts: lost contact and interference weigh more than any transmission error.
     pub(super) fn badness(&self) -> f64 {
         let lost = self.contact.summary.lost_poses + self.contact.summary.lost_poses_reversed;
+        let lost =
+            policy::CONTACT_POSES as f64 * lost as f64 / self.contact.poses.len().max(1) as f64;
         let interference = (self.interference_in_modules() - policy::WORST_INTERFERENCE).max(0.0);
-        lost as f64 + 10.0 * interference + self.error_share().min(1.0)
+        lost + 10.0 * interference + self.error_share().min(1.0)
     }
 
     fn faults(&self) -> Vec<String> {
@@ -376,7 +394,10 @@ fn carved_by_solids(
     Ok(ToothedPair { follower, ..pair })
 }
 
+/// Contact at `poses` poses; those of an analysis `known` with fewer are kept.
 fn contact(
+    known: Option<ContactAnalysis>,
+    poses: usize,
     centrodes: &Centrodes,
     module: f64,
     [driver, follower]: [&Profile; 2],
@@ -391,5 +412,9 @@ fn contact(
         motion_derivative: &|phi| transmission.derivative(phi),
         driver_cycle: transmission.driver_period() * f64::from(teeth::cycle_periods(transmission)),
     };
-    Ok(analyse(&input, &ContactOptions::default())?)
+    let options = ContactOptions { poses, ..ContactOptions::default() };
+    Ok(match known {
+        Some(known) => known.refined(&input, &options)?,
+        None => analyse(&input, &options)?,
+    })
 }

@@ -88,7 +88,10 @@ pub fn design(
     if options.repair {
         for _ in 0..policy::REPAIRS {
             if best.is_good() {
-                break;
+                best = best.confirmed(options)?;
+                if best.is_good() {
+                    break;
+                }
             }
             let (next, said) = settings.gentler(&best);
             settings = next;
@@ -103,7 +106,7 @@ pub fn design(
             }
         }
     }
-    best.finish([driver, follower], fit, options, steps)
+    best.confirmed(options)?.finish([driver, follower], fit, options, steps)
 }
 
 fn check(options: &DesignOptions) -> Result<(), DesignError> {

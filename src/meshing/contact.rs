@@ -167,17 +167,46 @@ pub fn analyse(
     input: &ContactInput<'_>,
     options: &ContactOptions,
 ) -> Result<ContactAnalysis, ContactError> {
+    analyse_from(Vec::new(), input, options)
+}
+
+impl ContactAnalysis {
+    /// The analysis with `options.poses` poses, when this one of the same input has fewer: poses
+    /// that are known are kept. The result is that of [`analyse`] with all poses at once.
+    ///
+    /// # Errors
+    /// See [`ContactError`].
+    pub fn refined(
+        self,
+        input: &ContactInput<'_>,
+        options: &ContactOptions,
+    ) -> Result<Self, ContactError> {
+        if self.poses.len() >= options.poses {
+            return Ok(self);
+        }
+        analyse_from(self.poses, input, options)
+    }
+}
+
+/// Adds the poses that are missing; those of `known` are the first of the staggered sequence.
+fn analyse_from(
+    known: Vec<ContactPose>,
+    input: &ContactInput<'_>,
+    options: &ContactOptions,
+) -> Result<ContactAnalysis, ContactError> {
     check(input, options)?;
     let spacing = policy::CONTACT_PROBE_SPACING * input.module;
     let (driver, follower) =
         rayon::join(|| Body::new(input.driver, spacing), || Body::new(input.follower, spacing));
-    let mut shares: Vec<f64> =
-        (0..options.poses).map(|i| ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract()).collect();
-    shares.sort_by(f64::total_cmp);
-    let poses = shares
+    let mut poses = (known.len()..options.poses)
         .into_par_iter()
-        .map(|share| pose_at(input, options, &driver, &follower, share * input.driver_cycle))
+        .map(|i| {
+            let share = ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract();
+            pose_at(input, options, &driver, &follower, share * input.driver_cycle)
+        })
         .collect::<Result<Vec<_>, _>>()?;
+    poses.extend(known);
+    poses.sort_by(|a, b| a.driver_angle.total_cmp(&b.driver_angle));
     let summary = ContactSummary::new(&poses, input.driver_cycle);
     Ok(ContactAnalysis { poses, summary })
 }

@@ -31,21 +31,21 @@ impl Pair {
     }
 
     fn analyse(&self, options: &ContactOptions) -> ContactAnalysis {
+        self.with_input(|input| analyse(input, options)).expect("sound input")
+    }
+
+    fn with_input<T>(&self, ask: impl FnOnce(&ContactInput<'_>) -> T) -> T {
         let ratio = f64::from(self.driver.teeth) / f64::from(self.follower.teeth);
         let gap = PI + PI / f64::from(self.follower.teeth);
-        analyse(
-            &ContactInput {
-                driver: &self.driver.outline(0.0, FLANK, self.present),
-                follower: &self.follower.outline(gap, FLANK, self.follower.teeth),
-                center_distance: self.distance(),
-                module: self.driver.module,
-                motion: &|angle| ratio * angle,
-                motion_derivative: &|_| ratio,
-                driver_cycle: TAU,
-            },
-            options,
-        )
-        .expect("sound input")
+        ask(&ContactInput {
+            driver: &self.driver.outline(0.0, FLANK, self.present),
+            follower: &self.follower.outline(gap, FLANK, self.follower.teeth),
+            center_distance: self.distance(),
+            module: self.driver.module,
+            motion: &|angle| ratio * angle,
+            motion_derivative: &|_| ratio,
+            driver_cycle: TAU,
+        })
     }
 }
 
@@ -242,4 +242,14 @@ fn bad_input_is_refused() {
     assert_eq!(run(&broken, 2.0, 1.0), Err(ContactError::NotFinite { gear: "driver", index: 7 }));
     assert!(matches!(run(&good, 0.0, 1.0), Err(ContactError::NotPositive { .. })));
     assert!(matches!(run(&good, 2.0, -1.0), Err(ContactError::BadMotion { .. })));
+}
+
+#[test]
+fn a_refined_analysis_is_that_of_all_poses_at_once() {
+    let pair = Pair::new(12, 17).thinned(0.05);
+    let options = |poses| ContactOptions { poses, ..ContactOptions::default() };
+    let few = pair.analyse(&options(40));
+    let refined = pair.with_input(|input| few.clone().refined(input, &options(101))).unwrap();
+    assert_eq!(refined, pair.analyse(&options(101)));
+    assert_ne!(refined, few);
 }

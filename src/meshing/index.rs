@@ -201,7 +201,7 @@ impl EdgeIndex {
                     self.low + Vector::new(self.columns as f64, self.rows as f64) * self.cell;
                 let dx = (self.low.x - p.x).max(p.x - high.x).max(0.0);
                 let dy = (self.low.y - p.y).max(p.y - high.y).max(0.0);
-                dx.hypot(dy)
+                (dx * dx + dy * dy).sqrt()
             }
         }
     }

@@ -16,9 +16,11 @@ pub(super) struct Body {
     index: EdgeIndex,
     probes: Vec<Point>,
     blocks: Vec<Block>,
+    /// Consecutive blocks, with `first` and `last` counting blocks.
+    groups: Vec<Block>,
 }
 
-/// Consecutive probes and a circle around them.
+/// Consecutive probes (or blocks of them) and a circle around them.
 #[derive(Debug)]
 struct Block {
     center: Point,
@@ -35,19 +37,42 @@ impl Body {
             let pieces = ((b - a).norm() / spacing).ceil().max(1.0);
             probes.extend((0..pieces as usize).map(|i| a + (b - a) * (i as f64 / pieces)));
         }
-        let size = policy::CONTACT_BLOCK;
-        let block = |(i, chunk): (usize, &[Point])| {
-            let (low, high) = bounds(chunk);
-            Block {
-                center: nalgebra::center(&low, &high),
-                radius: 0.5 * (high - low).norm(),
-                first: i * size,
-                last: i * size + chunk.len(),
-            }
-        };
-        let blocks = probes.chunks(size).enumerate().map(block).collect();
-        Self { index: EdgeIndex::new(outline.to_vec()), probes, blocks }
+        let blocks: Vec<Block> = blocks_of(&probes, policy::CONTACT_BLOCK).collect();
+        let in_group = policy::CONTACT_GROUP;
+        let groups = blocks_of(&probes, policy::CONTACT_BLOCK * in_group)
+            .enumerate()
+            .map(|(i, group)| Block {
+                first: i * in_group,
+                last: blocks.len().min((i + 1) * in_group),
+                ..group
+            })
+            .collect();
+        Self { index: EdgeIndex::new(outline.to_vec()), probes, blocks, groups }
     }
+}
+
+fn blocks_of(probes: &[Point], size: usize) -> impl Iterator<Item = Block> {
+    probes.chunks(size).enumerate().map(move |(i, chunk)| {
+        let (low, high) = bounds(chunk);
+        Block {
+            center: nalgebra::center(&low, &high),
+            radius: 0.5 * (high - low).norm(),
+            first: i * size,
+            last: i * size + chunk.len(),
+        }
+    })
+}
+
+/// A block that may matter at one pose.
+struct Close<'a> {
+    block: &'a Block,
+    /// Square of its distance from the pitch point.
+    from_pitch_point: f64,
+    /// Greatest distance of its points from the axis they turn about.
+    arm: f64,
+    /// What the other gear's boundary certainly keeps from all of its points; negative when its
+    /// points may be on either side of the boundary or lie inside the other gear.
+    clear: f64,
 }
 
 /// A rotation followed by a shift.
@@ -171,37 +196,47 @@ impl Search<'_> {
         near: Point,
         probing: Probing,
     ) {
-        let mut close: Vec<(f64, &Block)> = Vec::new();
-        for block in &body.blocks {
-            let center = placement.place(block.center);
-            let reach = ((center - axis).norm() + block.radius) * self.pose.max_play;
-            let clear = other.index.clear_distance(center);
-            if clear <= reach + block.radius || other.index.inside(center) {
-                close.push(((center - near).norm_squared(), block));
+        let mut close: Vec<Close<'_>> = Vec::new();
+        let max_play = self.pose.max_play;
+        let closeness = |block| {
+            let close = close_up(block, placement, axis, near, other);
+            (close.clear <= close.arm * max_play).then_some(close)
+        };
+        for group in &body.groups {
+            if closeness(group).is_some() {
+                close.extend(body.blocks[group.first..group.last].iter().filter_map(closeness));
             }
         }
         // The closest first: a short play found early shortens every later search.
-        close.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, block) in close {
+        close.sort_by(|a, b| a.from_pitch_point.total_cmp(&b.from_pitch_point));
+        for close in close {
             if self.play.depth > self.pose.deep {
                 return;
             }
-            for &p in &body.probes[block.first..block.last] {
+            let (behind, ahead) = self.limits();
+            if close.clear > close.arm * behind.max(ahead) {
+                continue;
+            }
+            for &p in &body.probes[close.block.first..close.block.last] {
                 self.probe_point(placement.place(p), axis, &other.index, probing);
             }
         }
     }
 
-    fn probe_point(&mut self, p: Point, axis: Point, index: &EdgeIndex, probing: Probing) {
+    /// Turns behind and ahead of which nothing more needs to be known, radians.
+    fn limits(&self) -> (f64, f64) {
         let max = self.pose.max_play;
         let behind = self.play.behind.map_or(max, |b| b + self.pose.slack).clamp(0.0, max);
-        let ahead = self.play.ahead.unwrap_or(max).clamp(0.0, max);
+        (behind, self.play.ahead.unwrap_or(max).clamp(0.0, max))
+    }
+
+    fn probe_point(&mut self, p: Point, axis: Point, index: &EdgeIndex, probing: Probing) {
+        let (behind, ahead) = self.limits();
         // A driver point ahead of which the follower must turn lies clockwise of its material.
         let (plus, minus) =
             if probing == Probing::Driver { (ahead, behind) } else { (behind, ahead) };
         let widest = plus.max(minus) * (p - axis).norm();
-        let far = index.clear_distance(p) > widest;
-        let (next, last) = if far {
+        let (next, last) = if index.clear_distance(p) > widest {
             (None, None)
         } else {
             (index.first_crossing(p, axis, 1.0, plus), index.first_crossing(p, axis, -1.0, minus))
@@ -295,6 +330,24 @@ impl Search<'_> {
             }
         };
         Touch { turn, point, normal }
+    }
+}
+
+/// Where a block lies at this pose; lengths in mm.
+fn close_up<'a>(
+    block: &'a Block,
+    placement: &Placement,
+    axis: Point,
+    near: Point,
+    other: &Body,
+) -> Close<'a> {
+    let center = placement.place(block.center);
+    let clear = other.index.clear_distance(center) - block.radius;
+    Close {
+        block,
+        from_pitch_point: (center - near).norm_squared(),
+        arm: (center - axis).norm() + block.radius,
+        clear: if other.index.inside(center) { f64::NEG_INFINITY } else { clear },
     }
 }
 

@@ -71,6 +71,8 @@ struct Tool<'a> {
     /// Each corner moved into the tool.
     inner: Vec<Point>,
     convex: Vec<bool>,
+    /// Circles around [`policy::CARVE_BLOCK`] corners each.
+    blocks: Vec<(Point, f64)>,
 }
 
 impl<'a> Tool<'a> {
@@ -86,7 +88,14 @@ impl<'a> Tool<'a> {
             })
             .collect();
         let convex = (0..n).map(|i| cross(before(i), tangents[i]) > 0.0).collect();
-        Self { points, tangents, inner, convex }
+        let blocks = points
+            .chunks(policy::CARVE_BLOCK)
+            .map(|block| {
+                let (low, high) = geometry::bounds(block);
+                (nalgebra::center(&low, &high), 0.5 * (high - low).norm())
+            })
+            .collect();
+        Self { points, tangents, inner, convex, blocks }
     }
 
     /// The envelope pieces between two neighbouring instants, in the follower's frame.
@@ -110,7 +119,16 @@ impl<'a> Tool<'a> {
             }
             pieces.push(quad);
         };
-        for i in 0..n {
+        let reached = self
+            .blocks
+            .iter()
+            .enumerate()
+            .filter(|(_, (center, radius))| blank.may_be_near(path(*center, from), *radius));
+        let corners = reached.flat_map(|(b, _)| {
+            let first = b * policy::CARVE_BLOCK;
+            first..n.min(first + policy::CARVE_BLOCK)
+        });
+        for i in corners {
             let p = self.points[i];
             let t = self.tangents[i];
             let here = outward(p, t);
@@ -156,6 +174,9 @@ struct RadialIndex<'a> {
     points: &'a [Point],
     bins: Vec<Vec<u32>>,
     farthest: Vec<f64>,
+    /// Greatest radius in each coarse sector and those to either side, and of all.
+    sectors: Vec<f64>,
+    widest: f64,
 }
 
 impl<'a> RadialIndex<'a> {
@@ -177,12 +198,45 @@ impl<'a> RadialIndex<'a> {
                 farthest[bin] = farthest[bin].max(a.coords.norm()).max(b.coords.norm());
             }
         }
-        Self { points, bins, farthest }
+        let coarse = policy::CARVE_SECTORS;
+        let mut greatest = vec![0.0_f64; coarse];
+        for bin in 0..count {
+            // As far as `near` may look from this bin, for each sector that it overlaps.
+            let r = [count - 1, 0, 1].map(|d| farthest[(bin + d) % count]);
+            let r = r.into_iter().fold(0.0, f64::max);
+            for sector in bin * coarse / count..=(bin + 1) * coarse / count {
+                let sector = &mut greatest[sector % coarse];
+                *sector = sector.max(r);
+            }
+        }
+        let around = |i: usize| [coarse - 1, 0, 1].map(|d| (i + d) % coarse);
+        let sectors: Vec<f64> = (0..coarse)
+            .map(|i| around(i).into_iter().map(|j| greatest[j]).fold(0.0, f64::max))
+            .collect();
+        let widest = farthest.iter().copied().fold(0.0, f64::max);
+        Self { points, bins, farthest, sectors, widest }
     }
 
     fn bin(&self, p: Point) -> usize {
         let width = std::f64::consts::TAU / self.bins.len() as f64;
         ((p.y.atan2(p.x) / width).floor() as i64).rem_euclid(self.bins.len() as i64) as usize
+    }
+
+    /// False only when [`Self::near`] is false for all points within `radius` of `center`.
+    fn may_be_near(&self, center: Point, radius: f64) -> bool {
+        let distance = center.coords.norm();
+        let nearest = distance - radius;
+        if nearest > self.widest {
+            return false;
+        }
+        // The sectors are good for a block that spans no more than one to either side.
+        let count = self.sectors.len();
+        let width = std::f64::consts::TAU / count as f64;
+        if radius >= distance * width.sin() {
+            return true;
+        }
+        let sector = (center.y.atan2(center.x) / width).floor() as i64;
+        nearest <= self.sectors[sector.rem_euclid(count as i64) as usize]
     }
 
     /// Whether `p` lies within the farthest edge of its bin or of a neighbouring one.
@@ -208,5 +262,40 @@ impl<'a> RadialIndex<'a> {
             })
             .count();
         crossings % 2 == 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_block_is_left_out_only_when_none_of_its_points_is_near() {
+        for (samples, lobes) in [(40, 3.0), (700, 9.0), (5000, 31.0)] {
+            let blank: Vec<Point> = (0..samples)
+                .map(|i| TAU * f64::from(i) / f64::from(samples))
+                .map(|t| geometry::rotate(Point::new(30.0 + 12.0 * (lobes * t).sin(), 0.0), t))
+                .collect();
+            let index = RadialIndex::new(&blank);
+            let mut left_out = 0;
+            for i in 0..4000 {
+                let share = f64::from(i) / 4000.0;
+                let center =
+                    geometry::rotate(Point::new(10.0 + 40.0 * share, 0.0), TAU * (97.0 * share));
+                let radius = 4.0 * (share * 61.0).fract();
+                if index.may_be_near(center, radius) {
+                    continue;
+                }
+                left_out += 1;
+                for k in 0..60 {
+                    let turn = TAU * f64::from(k) / 12.0;
+                    let far = radius * (1.0 - f64::from(k / 12) / 5.0);
+                    let p = center + Vector::new(far * turn.cos(), far * turn.sin());
+                    assert!(!index.near(p), "{samples} {center} {radius} {p}");
+                }
+            }
+            assert!(left_out > 400, "{samples}: {left_out}");
+        }
     }
 }

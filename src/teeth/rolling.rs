@@ -110,12 +110,42 @@ pub(crate) struct CurveFrame {
 }
 
 /// Arc length as a function of driver angle, and back, over the periodic motion.
+///
+/// The table's knots lie at even driver angles, on the knots of psi' and between them, so that the
+/// motion is smooth on each interval; there the driver angle is a quintic in the arc length that
+/// takes the exact value, slope and bend at both ends.
 #[derive(Debug)]
 pub(crate) struct Rolling<'a> {
     centrodes: &'a Centrodes,
-    /// Arc length at uniform knots of the driver angle over one period.
-    knots: Vec<f64>,
-    step: f64,
+    knots: Vec<Knot>,
+    /// For even arc lengths, the last knot at or before each.
+    hints: Vec<u32>,
+}
+
+/// The driver angle and its derivatives by arc length at one arc length.
+#[derive(Clone, Copy, Debug)]
+struct Knot {
+    s: f64,
+    angle: f64,
+    slope: f64,
+    bend: f64,
+}
+
+impl Knot {
+    fn new(centrodes: &Centrodes, s: f64, angle: f64) -> Self {
+        let t = &centrodes.transmission;
+        let (p, p1, p2) =
+            (t.derivative(angle), t.second_derivative(angle), t.third_derivative(angle));
+        let q = 1.0 + p;
+        // The pitch point's velocity across and along the line of centres, per unit of centre
+        // distance and driver angle, and how each changes.
+        let (across, along) = (p / q, p1 / (q * q));
+        let (across1, along1) = (p1 / (q * q), (p2 - 2.0 * p1 * p1 / q) / (q * q));
+        let speed = across.hypot(along);
+        let speed1 = (across * across1 + along * along1) / speed;
+        let slope = 1.0 / (speed * centrodes.center_distance);
+        Self { s, angle, slope, bend: -slope * slope * speed1 / speed }
+    }
 }
 
 /// Nodes and weights of five-point Gauss-Legendre quadrature on [-1, 1].
@@ -129,21 +159,33 @@ const GAUSS: [(f64, f64); 5] = [
 
 impl<'a> Rolling<'a> {
     pub(crate) fn new(centrodes: &'a Centrodes) -> Self {
-        let intervals = centrodes.transmission.samples().len().max(policy::ROLLING_INTERVALS);
+        let samples = centrodes.transmission.samples().len();
+        let intervals = samples * policy::ROLLING_INTERVALS.div_ceil(samples).max(1);
         let step = centrodes.transmission.driver_period() / intervals as f64;
         let mut knots = Vec::with_capacity(intervals + 1);
         let mut total = 0.0;
-        knots.push(0.0);
-        for i in 0..intervals {
-            total += arc_between(centrodes, i as f64 * step, (i + 1) as f64 * step);
-            knots.push(total);
+        knots.push(Knot::new(centrodes, 0.0, 0.0));
+        for i in 1..=intervals {
+            let (from, to) = ((i - 1) as f64 * step, i as f64 * step);
+            total += arc_between(centrodes, from, to);
+            knots.push(Knot::new(centrodes, total, to));
         }
-        Self { centrodes, knots, step }
+        let mut last = 0;
+        let hints = (0..intervals)
+            .map(|i| {
+                let s = total * i as f64 / intervals as f64;
+                while last + 1 < intervals && knots[last + 1].s <= s {
+                    last += 1;
+                }
+                last as u32
+            })
+            .collect();
+        Self { centrodes, knots, hints }
     }
 
     /// Arc length of one period of the motion, mm.
     pub(crate) fn period(&self) -> f64 {
-        self.knots[self.knots.len() - 1]
+        self.knots[self.knots.len() - 1].s
     }
 
     /// Periods of the motion in one whole cycle of both gears.
@@ -155,15 +197,16 @@ impl<'a> Rolling<'a> {
     pub(crate) fn driver_angle(&self, s: f64) -> f64 {
         let turns = (s / self.period()).floor();
         let rest = s - turns * self.period();
-        let i = self.knots.partition_point(|&k| k <= rest).clamp(1, self.knots.len() - 1) - 1;
-        let start = i as f64 * self.step;
-        let mut angle =
-            start + self.step * (rest - self.knots[i]) / (self.knots[i + 1] - self.knots[i]);
-        for _ in 0..policy::ROLLING_NEWTON_STEPS {
-            let error = self.knots[i] + arc_between(self.centrodes, start, angle) - rest;
-            angle -= error / self.centrodes.arc_speed(angle);
+        let hint = (rest / self.period() * self.hints.len() as f64) as usize;
+        let mut i = self.hints[hint.min(self.hints.len() - 1)] as usize;
+        while i + 2 < self.knots.len() && self.knots[i + 1].s <= rest {
+            i += 1;
         }
-        turns * self.centrodes.transmission.driver_period() + angle
+        while i > 0 && self.knots[i].s > rest {
+            i -= 1;
+        }
+        turns * self.centrodes.transmission.driver_period()
+            + between(&self.knots[i], &self.knots[i + 1], rest)
     }
 
     /// The instant at which arc length `s` has been rolled.
@@ -206,7 +249,66 @@ impl<'a> Rolling<'a> {
     }
 }
 
+/// The driver angle at arc length `s` between two knots.
+fn between(a: &Knot, b: &Knot, s: f64) -> f64 {
+    let h = b.s - a.s;
+    let t = (s - a.s) / h;
+    // What the quadratic through the first knot leaves at the second: value, slope, bend.
+    let d0 = b.angle - (a.angle + h * (a.slope + 0.5 * h * a.bend));
+    let d1 = h * (b.slope - a.slope - h * a.bend);
+    let d2 = h * h * (b.bend - a.bend);
+    let c3 = 10.0 * d0 - 4.0 * d1 + 0.5 * d2;
+    let c4 = -15.0 * d0 + 7.0 * d1 - d2;
+    let c5 = 6.0 * d0 - 3.0 * d1 + 0.5 * d2;
+    a.angle + t * (h * a.slope + t * (0.5 * h * h * a.bend + t * (c3 + t * (c4 + t * c5))))
+}
+
 fn arc_between(centrodes: &Centrodes, from: f64, to: f64) -> f64 {
     let (mid, half) = (0.5 * (from + to), 0.5 * (to - from));
     GAUSS.iter().map(|(x, w)| w * centrodes.arc_speed(mid + half * x)).sum::<f64>() * half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pitch::Transmission;
+    use std::f64::consts::TAU;
+
+    fn centrodes(samples: usize) -> Centrodes {
+        let law = |i: usize| {
+            let t = TAU * i as f64 / samples as f64;
+            (0.5 * (2.0 * t).cos() + 0.3 * (5.0 * t).sin() + 0.1 * (9.0 * t).cos()).exp()
+        };
+        let values: Vec<f64> = (0..samples).map(law).collect();
+        let transmission = Transmission::from_derivative(&values, 1, 1).unwrap();
+        Centrodes { transmission, center_distance: 80.0 }
+    }
+
+    #[test]
+    fn arc_length_and_driver_angle_are_inverse() {
+        for samples in [512, 1024, 3000] {
+            let centrodes = centrodes(samples);
+            let rolling = Rolling::new(&centrodes);
+            // On every knot of psi', off nearly every other knot of the table.
+            let steps = 7 * samples as i32;
+            let at = |i: i32| TAU * f64::from(i) / f64::from(steps);
+            let mut arc = 0.0;
+            for i in 0..steps {
+                let found = rolling.driver_angle(arc + rolling.period()) - TAU;
+                assert!((found - at(i)).abs() < 1e-11, "{samples} {i}: {:e}", found - at(i));
+                arc += arc_between(&centrodes, at(i), at(i + 1));
+            }
+        }
+    }
+
+    #[test]
+    fn circles_roll_evenly() {
+        let transmission = Transmission::from_derivative(&[0.5; 16], 2, 1).unwrap();
+        let centrodes = Centrodes { transmission, center_distance: 90.0 };
+        let rolling = Rolling::new(&centrodes);
+        for i in -50..50 {
+            let s = 7.3 * f64::from(i);
+            assert!((rolling.driver_angle(s) - s / 30.0).abs() < 1e-12);
+        }
+    }
 }
