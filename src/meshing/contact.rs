@@ -168,18 +168,32 @@ pub fn analyse(
     options: &ContactOptions,
 ) -> Result<ContactAnalysis, ContactError> {
     check(input, options)?;
+    let mut angles: Vec<f64> = (0..options.poses)
+        .map(|i| ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract() * input.driver_cycle)
+        .collect();
+    angles.sort_by(f64::total_cmp);
+    let poses = poses_at(input, options, &angles)?;
+    let summary = ContactSummary::new(&poses, input.driver_cycle);
+    Ok(ContactAnalysis { poses, summary })
+}
+
+/// The contact at each of the given driver angles (radians), in their order.
+///
+/// # Errors
+/// See [`ContactError`].
+pub fn poses_at(
+    input: &ContactInput<'_>,
+    options: &ContactOptions,
+    driver_angles: &[f64],
+) -> Result<Vec<ContactPose>, ContactError> {
+    check(input, options)?;
     let spacing = policy::CONTACT_PROBE_SPACING * input.module;
     let (driver, follower) =
         rayon::join(|| Body::new(input.driver, spacing), || Body::new(input.follower, spacing));
-    let mut shares: Vec<f64> =
-        (0..options.poses).map(|i| ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract()).collect();
-    shares.sort_by(f64::total_cmp);
-    let poses = shares
-        .into_par_iter()
-        .map(|share| pose_at(input, options, &driver, &follower, share * input.driver_cycle))
-        .collect::<Result<Vec<_>, _>>()?;
-    let summary = ContactSummary::new(&poses, input.driver_cycle);
-    Ok(ContactAnalysis { poses, summary })
+    driver_angles
+        .par_iter()
+        .map(|&angle| pose_at(input, options, &driver, &follower, angle))
+        .collect()
 }
 
 fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), ContactError> {
