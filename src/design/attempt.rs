@@ -166,7 +166,11 @@ impl Attempt {
             TeethStyle::Wave => teeth::wave_pair(&centrodes, &teeth_options)?,
             TeethStyle::RegularWave => teeth::regular_wave_pair(&centrodes, &teeth_options)?,
         };
-        let pair = if options.carve_with_solids { carved_by_solids(&centrodes, pair, options)? } else { pair };
+        let pair = if options.carve_with_solids {
+            carved_by_solids(&centrodes, pair, options)?
+        } else {
+            pair
+        };
         let inset = |profile: &Profile| {
             profile
                 .inset(options.clearance)
@@ -289,7 +293,9 @@ impl Attempt {
         mut steps: Vec<String>,
     ) -> Result<Design, DesignError> {
         let mut warnings = self.warnings();
-        let root = options.root_clearance.unwrap_or(TeethOptions::default().root_clearance * self.pair.module);
+        let root = options
+            .root_clearance
+            .unwrap_or(TeethOptions::default().root_clearance * self.pair.module);
         let dedendum = options.addendum * self.pair.module + root;
         warnings.extend(feasibility::warnings(&self.centrodes, &self.pair, dedendum));
         if fit.limited.shape > policy::LIMIT_WORTH_SAYING {

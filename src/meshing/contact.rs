@@ -195,20 +195,33 @@ fn analyse_from(
     options: &ContactOptions,
 ) -> Result<ContactAnalysis, ContactError> {
     check(input, options)?;
-    let spacing = policy::CONTACT_PROBE_SPACING * input.module;
-    let (driver, follower) =
-        rayon::join(|| Body::new(input.driver, spacing), || Body::new(input.follower, spacing));
-    let mut poses = (known.len()..options.poses)
-        .into_par_iter()
-        .map(|i| {
-            let share = ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract();
-            pose_at(input, options, &driver, &follower, share * input.driver_cycle)
-        })
-        .collect::<Result<Vec<_>, _>>()?;
+    let angles: Vec<f64> = (known.len()..options.poses)
+        .map(|i| ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract() * input.driver_cycle)
+        .collect();
+    let mut poses = poses_at(input, options, &angles)?;
     poses.extend(known);
     poses.sort_by(|a, b| a.driver_angle.total_cmp(&b.driver_angle));
     let summary = ContactSummary::new(&poses, input.driver_cycle);
     Ok(ContactAnalysis { poses, summary })
+}
+
+/// The contact at each of the given driver angles (radians), in their order.
+///
+/// # Errors
+/// See [`ContactError`].
+pub fn poses_at(
+    input: &ContactInput<'_>,
+    options: &ContactOptions,
+    driver_angles: &[f64],
+) -> Result<Vec<ContactPose>, ContactError> {
+    check(input, options)?;
+    let spacing = policy::CONTACT_PROBE_SPACING * input.module;
+    let (driver, follower) =
+        rayon::join(|| Body::new(input.driver, spacing), || Body::new(input.follower, spacing));
+    driver_angles
+        .par_iter()
+        .map(|&angle| pose_at(input, options, &driver, &follower, angle))
+        .collect()
 }
 
 fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), ContactError> {

@@ -183,7 +183,8 @@ pub fn carved_follower(
 ) -> Option<Vec<Point>> {
     let rolling = Rolling::new(centrodes);
     let periods = f64::from(rolling.cycle_periods());
-    let teeth_per_period = f64::from(driver_teeth) / f64::from(centrodes.transmission.driver_fold());
+    let teeth_per_period =
+        f64::from(driver_teeth) / f64::from(centrodes.transmission.driver_fold());
     let module = rolling.period() / (teeth_per_period * std::f64::consts::PI);
     let instants = policy::CARVE_INSTANTS_PER_TOOTH as f64 * teeth_per_period * periods;
     let carved = carve::carve(

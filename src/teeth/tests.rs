@@ -133,7 +133,8 @@ fn the_starting_pose_is_symmetric_about_the_line_of_centres() {
     for gear in [&pair.driver, &pair.follower] {
         for p in gear.points.iter().filter(|p| p.coords.norm() > 1.0) {
             let mirrored = Point::new(p.x, -p.y);
-            let nearest = gear.points.iter().map(|q| (q - mirrored).norm()).fold(f64::MAX, f64::min);
+            let nearest =
+                gear.points.iter().map(|q| (q - mirrored).norm()).fold(f64::MAX, f64::min);
             assert!(nearest < 0.05 * pair.module, "{p} has no mirror image: {nearest}");
         }
     }
