@@ -93,8 +93,11 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// psi' as a function of the driver angle, and the follower's order of symmetry.
-fn law(name: &str) -> anyhow::Result<(fn(f64) -> f64, u32)> {
+/// psi' as a function of the driver angle, radians.
+type Derivative = fn(f64) -> f64;
+
+/// The law of that name, and the follower's order of symmetry.
+fn law(name: &str) -> anyhow::Result<(Derivative, u32)> {
     const ECCENTRICITY: f64 = 0.3;
     Ok(match name {
         "circle" => (|_| 1.0, 1),
