@@ -563,3 +563,7 @@ pub const WORST_LOST_ARC: f64 = 0.1;
 pub const WORST_OVERLAP: f64 = 0.01;
 /// Share of the driver's work that must reach the load before a warning.
 pub const NOTED_EFFICIENCY: f64 = 0.6;
+/// Area of intersection over union below which a gear hardly resembles its drawing.
+pub const POOR_LIKENESS: f64 = 0.6;
+/// Points of a gear that should repeat k-fold match to this, in modules, or the outline is left as it is.
+pub const FOLD_MATCH: f64 = 1e-3;

@@ -35,10 +35,13 @@ pub(crate) fn summary(
             "module": made.pair.module,
             "center_distance": made.centrodes.center_distance,
             "objective": {
-                "E": objective.total,
+                "E": objective.shape + objective.weight * objective.torque,
                 "shape": objective.shape,
                 "torque": objective.torque,
                 "weight": objective.weight,
+                "limiting_cost": objective.limiting_cost,
+                "folding_cost": objective.folding_cost,
+                "total": objective.total,
             },
             "resemblance": made.likeness,
             "transmission_error_p99": error.map(|e| e.p99_deviation),
@@ -64,7 +67,7 @@ pub(crate) fn summary(
         "likeness {:.1} % and {:.1} %, E {:.3} (shape {:.3}, torque up to {:.2} times the load)",
         100.0 * made.likeness[0],
         100.0 * made.likeness[1],
-        objective.total,
+        objective.shape + objective.weight * objective.torque,
         objective.shape,
         made.centrodes.transmission.max_derivative()
     )?;
@@ -180,7 +183,11 @@ fn sections(made: &Design) -> Vec<Section> {
             percent(made.likeness[1]),
             "area of intersection over union",
         )
-        .row("E", format!("{:.4}", objective.total))
+        .noted_row(
+            "E",
+            format!("{:.4}", objective.shape + objective.weight * objective.torque),
+            format!("E_s + {} E_tau, Eq. 11; with the cost of bounds {:.4}", objective.weight, objective.total),
+        )
         .noted_row("E_s", format!("{:.4}", objective.shape), "change of shape, Eq. 12")
         .noted_row(
             "E_tau",

@@ -46,12 +46,12 @@ impl Settings {
                 settings.teeth = count;
             }
             ToothCount::Module(module) => {
-                let centrodes = scaled(transmission.clone(), options);
+                let centrodes = scaled(transmission.clone(), options, None);
                 let count = perimeter(&centrodes) / (std::f64::consts::PI * module);
                 settings.teeth = whole_teeth(count, folds);
             }
             ToothCount::Auto => {
-                let centrodes = scaled(transmission.clone(), options);
+                let centrodes = scaled(transmission.clone(), options, None);
                 let most =
                     perimeter(&centrodes) / (std::f64::consts::PI * policy::SMALLEST_CHOSEN_MODULE);
                 for count in policy::TOOTH_COUNTS {
@@ -111,8 +111,8 @@ fn whole_teeth(count: f64, folds: (u32, u32)) -> u32 {
     ((count / f64::from(folds.0)).round().max(1.0) as u32).saturating_mul(folds.0)
 }
 
-/// The pitch curves at the size asked for.
-fn scaled(transmission: Transmission, options: &DesignOptions) -> Centrodes {
+/// The pitch curves at the size asked for; the extent counts the tips of `teeth` driver teeth.
+fn scaled(transmission: Transmission, options: &DesignOptions, teeth: Option<u32>) -> Centrodes {
     match options.scale {
         Scale::CenterDistance(center_distance) => Centrodes { transmission, center_distance },
         Scale::Extent(extent) => {
@@ -121,7 +121,9 @@ fn scaled(transmission: Transmission, options: &DesignOptions) -> Centrodes {
             let follower = unit.follower_curve(policy::PITCH_CURVE_POINTS);
             points.extend(follower.iter().map(|p| Point::new(p.x + 1.0, p.y)));
             let (low, high) = geometry::bounds(&points);
-            let size = (high - low).max();
+            let module = |count: u32| unit.perimeter().0 / (std::f64::consts::PI * f64::from(count));
+            let tips = 2.0 * options.addendum * teeth.map_or(0.0, module);
+            let size = (high - low).max() + tips;
             Centrodes { center_distance: extent / size, ..unit }
         }
     }
@@ -148,7 +150,7 @@ impl Attempt {
         let folds = (fit.transmission.driver_fold(), fit.transmission.follower_fold());
         let (samples, rounding) = fit::apply(&fit.raw, folds, &settings.limits(options))?;
         let transmission = Transmission::from_derivative(&samples, folds.0, folds.1)?;
-        let centrodes = scaled(transmission, options);
+        let centrodes = scaled(transmission, options, Some(settings.teeth));
         let module = centrodes.perimeter().0 / (std::f64::consts::PI * f64::from(settings.teeth));
         let teeth_options = TeethOptions {
             driver_teeth: settings.teeth,
@@ -327,6 +329,13 @@ impl Attempt {
         for (i, name) in ["driver", "follower"].into_iter().enumerate() {
             let input = placed_input(shapes[i], fitted[i], &curves[i]);
             likeness[i] = geometry::intersection_over_union(&curves[i], &input);
+            if likeness[i] < policy::POOR_LIKENESS {
+                warnings.push(format!(
+                    "the {name} keeps only {:.0} % of the likeness of {}: the shape is too thin or too deeply cut for a gear",
+                    100.0 * likeness[i],
+                    shapes[i].name
+                ));
+            }
             let outline = self.finished[i].points.clone();
             let bore = bore_for(options.bore, &outline, &mut warnings, name)?;
             gears.push(Gear {

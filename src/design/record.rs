@@ -51,6 +51,12 @@ struct ObjectiveRecord {
     shape: f64,
     torque: f64,
     weight: f64,
+    /// What the bounds on torque and lean changed, in the measure of `shape`.
+    limiting_cost: f64,
+    /// What repeating one window round the larger gear changed, in the same measure.
+    folding_cost: f64,
+    /// What the search made small: all of the above.
+    total: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -123,10 +129,13 @@ impl Record {
                 follower_angle: gears[1].angle.iter().map(|a| 0.0 - a).collect(),
             },
             objective: ObjectiveRecord {
-                E: objective.total,
+                E: objective.shape + objective.weight * objective.torque,
                 shape: objective.shape,
                 torque: objective.torque,
                 weight: objective.weight,
+                limiting_cost: objective.limiting_cost,
+                folding_cost: objective.folding_cost,
+                total: objective.total,
             },
             resemblance: Resemblance {
                 driver_iou: design.likeness[0],

@@ -168,8 +168,11 @@ fn carve_rest(
     if carved.cuts == 0 {
         return Ok((follower, 0));
     }
-    let outline = follower.relabelled(carved.outline);
-    Ok((outline.without_short_edges(policy::SHORTEST_EDGE * module), carved.cuts))
+    let outline = follower
+        .relabelled(carved.outline)
+        .without_short_edges(policy::SHORTEST_EDGE * module)
+        .repeated(rolling.follower_fold(), policy::FOLD_MATCH * module);
+    Ok((outline, carved.cuts))
 }
 
 /// What the moving driver leaves of a blank (follower's frame, mm): paper, section 3.3 (iii), along the

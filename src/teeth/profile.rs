@@ -113,6 +113,34 @@ fn spaces_after(teeth: &[[Flank; 2]], period: f64) -> Vec<[Flank; 2]> {
 }
 
 impl Profile {
+    /// The profile made of `folds` exact copies of its first part: carving repeats only to rounding. The part
+    /// runs from a tip point to that point's image, which must be there within `tolerance` mm; a profile
+    /// without such a point comes back as it is.
+    #[must_use]
+    pub fn repeated(self, folds: u32, tolerance: f64) -> Self {
+        if folds < 2 {
+            return self;
+        }
+        let turn = std::f64::consts::TAU / f64::from(folds);
+        let n = self.points.len();
+        let image = |i: usize| {
+            let p = rotate(self.points[i], turn);
+            (0..n).find(|&j| (self.points[j] - p).norm() < tolerance)
+        };
+        let start = (0..n)
+            .filter(|&i| self.kinds[i] == EdgeKind::Tip)
+            .find_map(|i| image(i).map(|end| (i, (end + n - i) % n)));
+        let Some((start, count)) = start else { return self };
+        let part = (0..count).map(|k| (start + k) % n);
+        let (mut points, mut kinds) = (Vec::new(), Vec::new());
+        for fold in 0..folds {
+            let angle = turn * f64::from(fold);
+            points.extend(part.clone().map(|i| rotate(self.points[i], angle)));
+            kinds.extend(part.clone().map(|i| self.kinds[i]));
+        }
+        Self { points, kinds }
+    }
+
     /// Drops points that lie closer than `shortest` to the one before.
     #[must_use]
     pub fn without_short_edges(self, shortest: f64) -> Self {

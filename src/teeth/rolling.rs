@@ -188,6 +188,11 @@ impl<'a> Rolling<'a> {
         self.knots[self.knots.len() - 1].s
     }
 
+    /// Periods of the motion in one turn of the follower.
+    pub(crate) fn follower_fold(&self) -> u32 {
+        self.centrodes.transmission.follower_fold()
+    }
+
     /// Periods of the motion in one whole cycle of both gears.
     pub(crate) fn cycle_periods(&self) -> u32 {
         super::cycle_periods(&self.centrodes.transmission)
