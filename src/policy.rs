@@ -567,3 +567,6 @@ pub const NOTED_EFFICIENCY: f64 = 0.6;
 pub const POOR_LIKENESS: f64 = 0.6;
 /// Points of a gear that should repeat k-fold match to this, in modules, or the outline is left as it is.
 pub const FOLD_MATCH: f64 = 1e-3;
+/// Neighbours of a piece of envelope inside the blank that are carved with it, along the tool and in
+/// time: enough to cross the blank's boundary.
+pub const CARVE_SURROUND: usize = 3;

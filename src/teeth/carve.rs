@@ -27,7 +27,8 @@ pub(crate) struct Carved {
 /// Carves `blank` (follower's frame) with `tool` (driver's frame) over `arc` mm of rolling from 0, at
 /// `instants` evenly spaced instants. `depth` (mm) is how far each envelope piece reaches into the
 /// tool; it must stay below the tool's thinnest wall. With `only_inside`, pieces of envelope that lie
-/// outside the blank are left out before any boolean.
+/// outside the blank are left out before any boolean, but for those next to one that lies inside: the
+/// cut must reach the blank's boundary on all sides, or what it separates stays attached.
 pub(crate) fn carve(
     rolling: &Rolling<'_>,
     tool: &[Point],
@@ -43,10 +44,17 @@ pub(crate) fn carve(
         .into_par_iter()
         .map(|k| rolling.at(arc * k as f64 / instants as f64))
         .collect();
-    let pieces: Vec<Vec<Point>> = frames
+    let active: Vec<Vec<usize>> = frames
         .par_windows(2)
         .with_min_len(16)
-        .flat_map_iter(|pair| tool.envelope(&pair[0], &pair[1], &index, only_inside))
+        .map(|pair| tool.active(&pair[0], &pair[1], &index, only_inside))
+        .collect();
+    let active = if only_inside { surrounded(&active, tool.points.len()) } else { active };
+    let pieces: Vec<Vec<Point>> = frames
+        .par_windows(2)
+        .zip(&active)
+        .with_min_len(16)
+        .flat_map_iter(|(pair, corners)| tool.envelope(&pair[0], &pair[1], corners))
         .collect();
     if pieces.is_empty() {
         return Some(Carved { outline: blank.to_vec(), cuts: 0 });
@@ -98,27 +106,16 @@ impl<'a> Tool<'a> {
         Self { points, tangents, inner, convex, blocks }
     }
 
-    /// The envelope pieces between two neighbouring instants, in the follower's frame.
-    fn envelope(
+    /// Which edges, or the corners at their starts, may be on the envelope between two neighbouring instants.
+    fn active(
         &self,
         from: &Instant,
         to: &Instant,
         blank: &RadialIndex<'_>,
         only_inside: bool,
-    ) -> Vec<Vec<Point>> {
+    ) -> Vec<usize> {
         let n = self.points.len();
-        let pitch = [from, to].map(|i| i.to_local(Side::Driver, i.pitch));
-        let path = |p: Point, i: &Instant| i.to_local(Side::Follower, i.to_world(Side::Driver, p));
-        // Sign of outward motion of point p of an edge with tangent t, at both instants.
-        let outward = |p: Point, t: Vector| [0, 1].map(|k: usize| (p - pitch[k]).dot(&t) < 0.0);
-        let mut pieces = Vec::new();
-        let mut push = |quad: [Point; 4]| {
-            let mut quad = quad.to_vec();
-            if geometry::signed_area(&quad) < 0.0 {
-                quad.reverse();
-            }
-            pieces.push(quad);
-        };
+        let motion = Motion::new(from, to);
         let reached = self
             .blocks
             .iter()
@@ -128,45 +125,104 @@ impl<'a> Tool<'a> {
             let first = b * policy::CARVE_BLOCK;
             first..n.min(first + policy::CARVE_BLOCK)
         });
-        for i in corners {
-            let p = self.points[i];
-            let t = self.tangents[i];
-            let here = outward(p, t);
-            let there = outward(self.points[(i + 1) % n], t);
-            let last = outward(p, self.tangents[(i + n - 1) % n]);
-            let differs = |a: [bool; 2], b: [bool; 2]| {
-                a[0] != b[0] || a[1] != b[1] || a[0] != a[1] || b[0] != b[1]
-            };
-            let corner = self.convex[i] && differs(here, last);
-            let edge = differs(here, there);
-            if !(corner || edge) {
-                continue;
+        corners
+            .filter(|&i| {
+                let (corner, edge) = self.kinds(i, &motion);
+                if !(corner || edge) {
+                    return false;
+                }
+                let (p0, n0) = (path(self.points[i], from), path(self.points[(i + 1) % n], from));
+                if !only_inside {
+                    return blank.near(p0);
+                }
+                let along = |t: f64| p0 + t * (n0 - p0);
+                let probes = [p0, n0, along(0.25), along(0.5), along(0.75), path(self.points[i], to)];
+                blank.near(p0) && probes.iter().any(|&q| blank.contains(q))
+            })
+            .collect()
+    }
+
+    /// Whether the corner at the start of edge `i`, and the edge itself, are on the envelope.
+    fn kinds(&self, i: usize, motion: &Motion) -> (bool, bool) {
+        let n = self.points.len();
+        let (p, t) = (self.points[i], self.tangents[i]);
+        let here = motion.outward(p, t);
+        let there = motion.outward(self.points[(i + 1) % n], t);
+        let last = motion.outward(p, self.tangents[(i + n - 1) % n]);
+        let differs = |a: [bool; 2], b: [bool; 2]| {
+            a[0] != b[0] || a[1] != b[1] || a[0] != a[1] || b[0] != b[1]
+        };
+        (self.convex[i] && differs(here, last), differs(here, there))
+    }
+
+    /// The envelope pieces of the given edges and their corners between two neighbouring instants, in
+    /// the follower's frame.
+    fn envelope(&self, from: &Instant, to: &Instant, corners: &[usize]) -> Vec<Vec<Point>> {
+        let n = self.points.len();
+        let motion = Motion::new(from, to);
+        let mut pieces = Vec::new();
+        let mut push = |quad: [Point; 4]| {
+            let mut quad = quad.to_vec();
+            if geometry::signed_area(&quad) < 0.0 {
+                quad.reverse();
             }
-            let p0 = path(p, from);
-            if !blank.near(p0) {
-                continue;
-            }
-            let p1 = path(p, to);
+            pieces.push(quad);
+        };
+        for &i in corners {
+            let (corner, edge) = self.kinds(i, &motion);
             let next = (i + 1) % n;
-            let n0 = path(self.points[next], from);
-            if only_inside
-                && ![p0, p1, n0, nalgebra::center(&p0, &n0)].iter().any(|&q| blank.contains(q))
-            {
-                continue;
-            }
-            let (q0, q1) = (path(self.inner[i], from), path(self.inner[i], to));
+            let [p0, p1] = [from, to].map(|at| path(self.points[i], at));
+            let [q0, q1] = [from, to].map(|at| path(self.inner[i], at));
             if corner {
                 push([p0, p1, q1, q0]);
             }
             if edge {
-                let m0 = path(self.inner[next], from);
+                let [n0, n1] = [from, to].map(|at| path(self.points[next], at));
+                let [m0, m1] = [from, to].map(|at| path(self.inner[next], at));
                 push([p0, n0, m0, q0]);
-                let (n1, m1) = (path(self.points[next], to), path(self.inner[next], to));
                 push([p1, n1, m1, q1]);
             }
         }
         pieces
     }
+}
+
+/// A point of the driver's frame in the follower's.
+fn path(p: Point, at: &Instant) -> Point {
+    at.to_local(Side::Follower, at.to_world(Side::Driver, p))
+}
+
+/// The pitch point in the driver's frame at two neighbouring instants.
+struct Motion([Point; 2]);
+
+impl Motion {
+    fn new(from: &Instant, to: &Instant) -> Self {
+        Self([from, to].map(|i| i.to_local(Side::Driver, i.pitch)))
+    }
+
+    /// Whether point `p` of an edge with tangent `t` moves outward, at both instants.
+    fn outward(&self, p: Point, t: Vector) -> [bool; 2] {
+        self.0.map(|pitch| (p - pitch).dot(&t) < 0.0)
+    }
+}
+
+/// Each corner together with its neighbours along the tool and in time.
+fn surrounded(active: &[Vec<usize>], corners: usize) -> Vec<Vec<usize>> {
+    let reach = policy::CARVE_SURROUND;
+    (0..active.len())
+        .into_par_iter()
+        .map(|k| {
+            let times = k.saturating_sub(reach)..active.len().min(k + reach + 1);
+            let mut found: Vec<usize> = active[times]
+                .iter()
+                .flatten()
+                .flat_map(|&i| (0..=2 * reach).map(move |d| (i + corners + d - reach) % corners))
+                .collect();
+            found.sort_unstable();
+            found.dedup();
+            found
+        })
+        .collect()
 }
 
 /// Edges of a polygon about the origin by polar angle, to ask what is inside.
