@@ -90,7 +90,7 @@ pub const CARVE_SECTORS: usize = 128;
 pub const CARVE_DEPTH: f64 = 0.05;
 /// The driver is shrunk by this before it may carve a follower that already has conjugate flanks, in
 /// modules: above the chord error of the flanks, so that touching is not taken for collision.
-pub const CARVE_SKIN: f64 = 1e-3;
+pub const CARVE_SKIN: f64 = 6e-4;
 // Contact analysis (`meshing`).
 
 /// Poses of one contact analysis, over a whole cycle. Twenty and more a tooth on gears of 64
@@ -342,8 +342,9 @@ pub const LEAN_SMOOTHING_PASSES: usize = 4;
 /// Steepest lean of a pitch curve by default, radians. With a pressure angle of 20 degrees the
 /// force then stays within 75 degrees of the motion; friction binds soon after.
 pub const DESIGN_MAX_LEAN: f64 = 55.0 * std::f64::consts::PI / 180.0;
-/// Largest curvature of a pitch curve times the module, first choice. At 0.5 a convex corner is
-/// rolled like a pinion of four teeth, the sharpest that still hands motion on at 30 degrees.
+/// Largest curvature of a pitch curve times the module, first choice. At a constant curvature flanks
+/// of 30 degrees hand motion on up to 0.40; a corner that is that sharp over less than a pitch may be sharper,
+/// and what this leaves is found by the contact analysis and repaired.
 pub const CURVATURE_TIMES_MODULE: f64 = 0.5;
 /// Factor on that bound at each repair.
 pub const CURVATURE_REPAIR: f64 = 0.75;
@@ -367,7 +368,8 @@ pub const PITCH_CURVE_POINTS: usize = 720;
 pub const GOOD_TRANSMISSION_ERROR: f64 = 0.02;
 /// The same above which a pair is not sound.
 pub const WORST_TRANSMISSION_ERROR: f64 = 0.25;
-/// Interference of the finished gears above which a pair is not sound, in modules.
+/// Interference of the finished gears above which a pair is not sound, in modules; without clearance what
+/// chords and carving leave by design is allowed on top.
 pub const WORST_INTERFERENCE: f64 = 1e-4;
 /// Pressure angle plus friction above which a drive is likely to bind, radians (a warning).
 pub const STEEP_PRESSURE_ANGLE: f64 = 70.0 * std::f64::consts::PI / 180.0;

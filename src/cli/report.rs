@@ -186,7 +186,10 @@ fn sections(made: &Design) -> Vec<Section> {
         .noted_row(
             "E",
             format!("{:.4}", objective.shape + objective.weight * objective.torque),
-            format!("E_s + {} E_tau, Eq. 11; with the cost of bounds {:.4}", objective.weight, objective.total),
+            format!(
+                "E_s + {} E_tau, Eq. 11; with the cost of bounds {:.4}",
+                objective.weight, objective.total
+            ),
         )
         .noted_row("E_s", format!("{:.4}", objective.shape), "change of shape, Eq. 12")
         .noted_row(

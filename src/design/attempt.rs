@@ -102,7 +102,10 @@ impl Settings {
             (next, format!("lean held to {:.0} degrees", next.max_lean.to_degrees()))
         } else {
             next.curvature *= policy::CURVATURE_REPAIR;
-            (next, format!("pitch curves rounded to {:.2} of the module", 1.0 / next.curvature))
+            (
+                next,
+                format!("pitch curves rounded to a radius of {:.2} modules", 1.0 / next.curvature),
+            )
         }
     }
 }
@@ -121,7 +124,8 @@ fn scaled(transmission: Transmission, options: &DesignOptions, teeth: Option<u32
             let follower = unit.follower_curve(policy::PITCH_CURVE_POINTS);
             points.extend(follower.iter().map(|p| Point::new(p.x + 1.0, p.y)));
             let (low, high) = geometry::bounds(&points);
-            let module = |count: u32| unit.perimeter().0 / (std::f64::consts::PI * f64::from(count));
+            let module =
+                |count: u32| unit.perimeter().0 / (std::f64::consts::PI * f64::from(count));
             let tips = 2.0 * options.addendum * teeth.map_or(0.0, module);
             let size = (high - low).max() + tips;
             Centrodes { center_distance: extent / size, ..unit }
@@ -139,6 +143,8 @@ pub(super) struct Attempt {
     exact: ContactAnalysis,
     contact: ContactAnalysis,
     rounding: fit::LimitCost,
+    /// In modules.
+    allowed_interference: f64,
 }
 
 impl Attempt {
@@ -187,7 +193,19 @@ impl Attempt {
         } else {
             contact(None, poses, &centrodes, module, [&finished[0], &finished[1]])?
         };
-        Ok(Self { settings, centrodes, pair, finished, exact, contact, rounding })
+        let drawn =
+            policy::CARVE_SKIN + 2.0 * options.chord_tolerance - 2.0 * options.clearance / module;
+        let allowed_interference = policy::WORST_INTERFERENCE + drawn.max(0.0);
+        Ok(Self {
+            settings,
+            centrodes,
+            pair,
+            finished,
+            exact,
+            contact,
+            rounding,
+            allowed_interference,
+        })
     }
 
     /// The attempt with its contact analysed at every pose that a delivered pair is judged by.
@@ -222,7 +240,7 @@ impl Attempt {
         self.error_share() <= policy::GOOD_TRANSMISSION_ERROR
             && self.contact.summary.lost_poses == 0
             && self.contact.summary.lost_poses_reversed == 0
-            && self.interference_in_modules() <= policy::WORST_INTERFERENCE
+            && self.interference_in_modules() <= self.allowed_interference
     }
 
     /// To compare attempts: lost contact and interference weigh more than any transmission error.
@@ -230,7 +248,7 @@ impl Attempt {
         let lost = self.contact.summary.lost_poses + self.contact.summary.lost_poses_reversed;
         let lost =
             policy::CONTACT_POSES as f64 * lost as f64 / self.contact.poses.len().max(1) as f64;
-        let interference = (self.interference_in_modules() - policy::WORST_INTERFERENCE).max(0.0);
+        let interference = (self.interference_in_modules() - self.allowed_interference).max(0.0);
         lost + 10.0 * interference + self.error_share().min(1.0)
     }
 
@@ -249,7 +267,7 @@ impl Attempt {
                     .to_owned(),
             );
         }
-        if self.interference_in_modules() > policy::WORST_INTERFERENCE
+        if self.interference_in_modules() > self.allowed_interference
             && let Some(worst) = &summary.max_interference
         {
             faults.push(format!(

@@ -61,7 +61,8 @@ fn triangles(outline: &[Point]) -> Result<Vec<[usize; 3]>, PartitionError> {
     if let Some(index) = outline.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
         return Err(PartitionError::BadPoint { index });
     }
-    if !(signed_area(outline) > 0.0) {
+    let area = signed_area(outline);
+    if area <= 0.0 || area.is_nan() {
         return Err(PartitionError::NoArea);
     }
     let points: Vec<_> = outline.iter().map(|p| Point2::new(flush(p.x), flush(p.y))).collect();

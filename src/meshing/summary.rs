@@ -90,7 +90,7 @@ impl ContactSummary {
             reversed_error_pitch: deviation(reversed.map(|p| p.play_ahead / p.pitch_angle)),
             lost_poses: poses.len() - counted,
             lost_poses_reversed: poses.iter().filter(|p| p.lost_reversed).count(),
-            lost_angle: lost.iter().map(|arc| arc.to - arc.from).sum(),
+            lost_angle: lost.iter().map(|arc| arc.to - arc.from).fold(0.0, |sum, arc| sum + arc),
             lost,
             max_interference: greatest(overlaps).filter(|worst| worst.value > 0.0),
             max_pressure_angle: greatest(pressure),

@@ -190,9 +190,9 @@ fn otsu(histogram: &[u64; 256]) -> f64 {
     let sum: f64 = histogram.iter().enumerate().map(weighted).sum();
     let (mut below, mut sum_below) = (0_u64, 0.0);
     let (mut best, mut first, mut last) = (-1.0, 0, 0);
-    for value in 0..255 {
-        below += histogram[value];
-        sum_below += weighted((value, &histogram[value]));
+    for (value, count) in histogram.iter().enumerate().take(255) {
+        below += count;
+        sum_below += weighted((value, count));
         let above = total - below;
         if below == 0 || above == 0 {
             continue;

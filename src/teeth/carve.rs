@@ -40,7 +40,8 @@ pub(crate) fn carve(
 ) -> Option<Carved> {
     let tool = Tool::new(tool, depth);
     let index = RadialIndex::new(blank);
-    let frames: Vec<Instant> = (0..=instants)
+    // Some instants past the end: where the cycle closes, its pieces must overlap, not just meet.
+    let frames: Vec<Instant> = (0..=instants + policy::CARVE_SURROUND)
         .into_par_iter()
         .map(|k| rolling.at(arc * k as f64 / instants as f64))
         .collect();
@@ -136,7 +137,8 @@ impl<'a> Tool<'a> {
                     return blank.near(p0);
                 }
                 let along = |t: f64| p0 + t * (n0 - p0);
-                let probes = [p0, n0, along(0.25), along(0.5), along(0.75), path(self.points[i], to)];
+                let probes =
+                    [p0, n0, along(0.25), along(0.5), along(0.75), path(self.points[i], to)];
                 blank.near(p0) && probes.iter().any(|&q| blank.contains(q))
             })
             .collect()
