@@ -311,7 +311,7 @@ impl Task<'_> {
             let mut wider = widths.clone();
             let mut any = false;
             for i in 0..n {
-                let over = bend[i] * length / most;
+                let over = bend[i] * length / (most * (1.0 - policy::CURVATURE_RIPPLE));
                 if over <= 1.0 {
                     continue;
                 }
@@ -469,7 +469,8 @@ mod tests {
                 assert!(found.lean <= limits.max_lean * slack, "{limits:?} {found:?}");
                 assert!(found.derivative <= limits.max_derivative.unwrap_or(9e9) * slack);
                 assert!(
-                    found.curvature <= bend.unwrap_or(f64::INFINITY) * slack,
+                    found.curvature
+                        <= bend.unwrap_or(f64::INFINITY) * (1.0 + 2.0 * policy::CURVATURE_RIPPLE),
                     "{limits:?} {found:?}"
                 );
                 let total: f64 = law.iter().sum();

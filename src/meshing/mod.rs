@@ -1,9 +1,7 @@
 //! Proof that two finished gears drive each other: quasi-static contact
-//! analysis of their outlines, a run of both as rigid bodies, and a verdict.
+//! analysis of their outlines, and their exact convex parts.
 
 mod contact;
-mod csv;
-mod dynamics;
 mod index;
 mod motion;
 mod partition;
@@ -11,19 +9,11 @@ mod play;
 #[cfg(test)]
 mod spur;
 mod summary;
-mod verdict;
-mod world;
 
 pub use contact::{
     Contact, ContactAnalysis, ContactError, ContactInput, ContactOptions, ContactPose, analyse,
     poses_at,
 };
-pub use csv::write_csv;
-pub use dynamics::{
-    Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, DynamicsSummary,
-    Step, Stop, simulate,
-};
 pub use motion::{MotionError, SampledMotion};
 pub use partition::{PartitionError, convex_partition};
 pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};
-pub use verdict::{Limits, MeshingReport, Reason, Verdict, judge};

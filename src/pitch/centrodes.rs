@@ -71,8 +71,13 @@ impl Centrodes {
     /// Its size is the same on both gears.
     #[must_use]
     pub fn lean(&self, phi: f64) -> f64 {
+        self.slope(phi).atan()
+    }
+
+    /// d ln r_D / d phi, the tangent of the lean.
+    fn slope(&self, phi: f64) -> f64 {
         let p = self.transmission.derivative(phi);
-        (self.transmission.second_derivative(phi) / (p * (1.0 + p))).atan()
+        self.transmission.second_derivative(phi) / (p * (1.0 + p))
     }
 
     /// Greatest lean without its sign, over the knots of psi' and the middles between them.
@@ -80,7 +85,7 @@ impl Centrodes {
     pub fn max_lean(&self) -> f64 {
         let n = 2 * self.transmission.samples().len();
         let step = self.transmission.driver_period() / n as f64;
-        (0..n).map(|i| self.lean(i as f64 * step).abs()).fold(0.0, f64::max)
+        (0..n).map(|i| self.slope(i as f64 * step).abs()).fold(0.0, f64::max).atan()
     }
 
     /// Signed curvatures of the driver's and the follower's pitch curve at the pitch point, positive where the gear is

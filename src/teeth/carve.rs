@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use super::rolling::{Instant, Rolling, Side};
 use crate::geometry::{self, Point, Vector, cross, quarter_turn};
+use crate::outline::simplify;
 use crate::policy;
 
 /// What carving found.
@@ -51,12 +52,28 @@ pub(crate) fn carve(
         .map(|pair| tool.active(&pair[0], &pair[1], &index, only_inside))
         .collect();
     let active = if only_inside { surrounded(&active, tool.points.len()) } else { active };
-    let pieces: Vec<Vec<Point>> = frames
+    let mut pieces: Vec<Vec<Point>> = frames
         .par_windows(2)
         .zip(&active)
         .with_min_len(16)
         .flat_map_iter(|(pair, corners)| tool.envelope(&pair[0], &pair[1], corners))
         .collect();
+    if !only_inside {
+        // The inside of the tool, a little smaller, at some of the instants: what the thin pieces of
+        // envelope separate must not hang on to the gear by a gap between two of them.
+        let core =
+            geometry::largest(geometry::offset(tool.points, -0.5 * depth, policy::BODY_CHORD))
+                .and_then(|face| face.into_iter().next())
+                .map(|ring| simplify(&ring, 0.25 * depth));
+        if let Some(core) = core {
+            pieces.par_extend(
+                frames
+                    .par_iter()
+                    .step_by(policy::CARVE_CORE_STRIDE)
+                    .map(|at| core.iter().map(|&p| path(p, at)).collect::<Vec<_>>()),
+            );
+        }
+    }
     if pieces.is_empty() {
         return Some(Carved { outline: blank.to_vec(), cuts: 0 });
     }

@@ -21,7 +21,10 @@ impl Profile {
             quarter_turn(edge.normalize())
         };
         let (mut points, mut kinds) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        // First and last new point of each old one.
+        let mut spans = Vec::with_capacity(n);
         for i in 0..n {
+            let first = points.len();
             let (before, after) = (inward(i + n - 1), inward(i));
             let turn = geometry::cross(before, after).atan2(before.dot(&after));
             let p = self.points[i];
@@ -40,8 +43,17 @@ impl Profile {
                 points.push(p.coords + distance * reach);
                 kinds.push(self.kinds[i]);
             }
+            spans.push((first, points.len() - 1));
         }
-        let points = points.into_iter().map(Point::from).collect();
+        let points: Vec<Point> = points.into_iter().map(Point::from).collect();
+        // An offset past the middle turns a gear inside out: its edges then run backwards.
+        let along = |i: usize| {
+            let old = self.points[(i + 1) % n] - self.points[i];
+            (points[spans[(i + 1) % n].0] - points[spans[i].1]).dot(&old).signum() * old.norm()
+        };
+        if (0..n).map(along).sum::<f64>() <= 0.0 {
+            return None;
+        }
         Self { points, kinds }.untangled()
     }
 

@@ -54,6 +54,11 @@ impl Flank {
         }
     }
 
+    /// The flank on one gear, moved into it by its quarter of the backlash.
+    pub(crate) fn thinned(&self, side: Side, backlash: f64) -> Self {
+        Self { u: self.u - 0.25 * backlash * self.sigma * side.sign(), ..*self }
+    }
+
     /// Length of contact in rolled arc length, mm.
     pub(crate) fn contact_length(&self) -> f64 {
         self.driver_reach + self.follower_reach

@@ -52,11 +52,7 @@ pub(crate) fn gear_profile(
             let full = |flank: &Flank| {
                 (side.sign() * flank.reach(side), -side.sign() * flank.reach(side.partner()))
             };
-            let thinned = |flank: &Flank| Flank {
-                u: flank.u - 0.25 * backlash * flank.sigma * side.sign(),
-                ..*flank
-            };
-            let (a, b) = (thinned(a), thinned(b));
+            let (a, b) = (a.thinned(side, backlash), b.thinned(side, backlash));
             let (tip, bottom) = full(&a);
             let rising = a.sample(rolling, side, (bottom, tip), tolerance);
             let (tip, bottom) = full(&b);
@@ -76,7 +72,9 @@ pub(crate) fn gear_profile(
                 last.1 = EdgeKind::Root;
             }
             piece.extend(
-                root_curve(rolling, rack, space, side).into_iter().map(|p| (p, EdgeKind::Root)),
+                root_curve(rolling, rack, space, side, backlash)
+                    .into_iter()
+                    .map(|p| (p, EdgeKind::Root)),
             );
             piece
         })

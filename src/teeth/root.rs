@@ -71,12 +71,14 @@ pub(crate) fn cap(
 }
 
 /// The root of a space of gear `side` between its flanks `a` and `b`: points from the root end of
-/// `a` to the root end of `b`, both excluded, in the frame of that gear.
+/// `a` to the root end of `b`, both excluded, in the frame of that gear. The root moves
+/// with flanks that are thinned by `backlash`.
 pub(crate) fn root_curve(
     rolling: &Rolling<'_>,
     rack: &Rack,
     [a, b]: &[Flank; 2],
     side: Side,
+    backlash: f64,
 ) -> Vec<Point> {
     let mate = side.partner();
     let cap = cap(
@@ -88,7 +90,7 @@ pub(crate) fn root_curve(
         policy::CAP_POINTS_PER_CORNER,
     );
     let end = |flank: &Flank, share: f64| {
-        flank.point(rolling, side, mate.sign() * share * flank.reach(mate))
+        flank.thinned(side, backlash).point(rolling, side, mate.sign() * share * flank.reach(mate))
     };
     let (end_a, end_b) = (end(a, 1.0), end(b, 1.0));
     let center =
@@ -155,7 +157,8 @@ pub(crate) fn root_curve(
             };
             let at = start + step * k as f64;
             let r = largest_near(reach, at - step, at + step).max(found)
-                + policy::ROOT_RELIEF * rack.module;
+                + policy::ROOT_RELIEF * rack.module
+                + 0.25 * backlash;
             let (sin, cos) = rays[i].sin_cos();
             center + r * (sin * frame.tangent - cos * frame.normal)
         })
