@@ -313,7 +313,7 @@ mod tests {
         let rolling = Rolling::new(&centrodes);
         for i in -50..50 {
             let s = 7.3 * f64::from(i);
-            assert!((rolling.driver_angle(s) - s / 30.0).abs() < 1e-9);
+            assert!((rolling.driver_angle(s) - s / 60.0).abs() < 1e-12);
         }
     }
 }
