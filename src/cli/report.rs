@@ -135,7 +135,8 @@ pub(crate) fn page(made: &Design) -> ReportData {
     }
 }
 
-/// The command that makes this again, without the path of the program.
+/// The command that makes this again, without the paths of the program and of the folder, which are not
+/// part of the design.
 fn command_line() -> String {
     let quoted = |word: String| {
         if word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./:=".contains(c)) {
@@ -144,9 +145,16 @@ fn command_line() -> String {
             format!("'{}'", word.replace('\'', "'\\''"))
         }
     };
-    let words: Vec<String> =
-        std::env::args_os().skip(1).map(|w| quoted(w.to_string_lossy().into_owned())).collect();
-    format!("centrode {}", words.join(" "))
+    let mut given = std::env::args_os().skip(1).map(|w| w.to_string_lossy().into_owned());
+    let mut words = Vec::new();
+    while let Some(word) = given.next() {
+        match word.as_str() {
+            "-o" | "--output" => _ = given.next(),
+            w if w.starts_with("-o") || w.starts_with("--output=") => {}
+            _ => words.push(quoted(word)),
+        }
+    }
+    format!("centrode {} -o out", words.join(" "))
 }
 
 fn sections(made: &Design) -> Vec<Section> {
