@@ -1,7 +1,9 @@
 //! Proof that two finished gears drive each other: quasi-static contact
-//! analysis of their outlines, and their exact convex parts.
+//! analysis of their outlines, a run of both as rigid bodies, and a verdict.
 
 mod contact;
+mod csv;
+mod dynamics;
 mod index;
 mod motion;
 mod partition;
@@ -9,11 +11,19 @@ mod play;
 #[cfg(test)]
 mod spur;
 mod summary;
+mod verdict;
+mod world;
 
 pub use contact::{
     Contact, ContactAnalysis, ContactError, ContactInput, ContactOptions, ContactPose, analyse,
     poses_at,
 };
+pub use csv::write_csv;
+pub use dynamics::{
+    Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, DynamicsSummary,
+    Step, Stop, simulate,
+};
 pub use motion::{MotionError, SampledMotion};
 pub use partition::{PartitionError, convex_partition};
 pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};
+pub use verdict::{Limits, MeshingReport, Reason, Verdict, judge};
