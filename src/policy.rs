@@ -580,3 +580,34 @@ pub const WORST_LOST_ARC: f64 = 0.1;
 pub const WORST_OVERLAP: f64 = 0.01;
 /// Share of the driver's work that must reach the load before a warning.
 pub const NOTED_EFFICIENCY: f64 = 0.6;
+/// Distance within which a contact belongs to a place of the outline, in modules: contacts lie on convex
+/// pieces, which leave the outline by [`HULL_TOLERANCE`] at most, and in a step's overlap.
+pub const SURFACE_REACH: f64 = 0.02;
+/// Side of the cells in which a place of the outline is looked up, in modules.
+pub const SURFACE_CELL: f64 = 0.1;
+/// How far a contact's normal may lie off the normals of the outline there, radians: above the turn
+/// between neighbouring chords, below that between a flank and the inner side of a piece.
+pub const SURFACE_ANGLE: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
+// ---- Teeth: relief for play -------------------------------------------------------------------------
+
+/// Fastest that the lag of a loaded follower may change, as a share of its speed: the driver's torque
+/// changes by this share meanwhile, and the pitch point moves so little that flanks stay conjugate.
+pub const RELIEF_RATE: f64 = 0.03;
+/// Sudden loss of lag, in pitches of the follower, that is worth a cut; smaller ones are facets.
+pub const RELIEF_FROM: f64 = 2e-3;
+/// How far top lands are lowered after relief, in modules: a tip that touched its mate would still catch.
+pub const RELIEF_TIP: f64 = 0.02;
+/// Distance between what was carved and the chords that are kept, in modules.
+pub const RELIEF_CHORD: f64 = 2e-4;
+/// Carving instants between two poses of the contact analysis.
+pub const RELIEF_SUBSTEPS: i64 = 2;
+/// Least speed ratio at which the instant centre of the lagging motion is taken; a follower that
+/// falls back faster than it is driven has none between the axes.
+pub const RELIEF_LEAST_SPEED: f64 = 0.01;
+/// Sine of the turn between two edges below which they count as in line when tips are moved.
+pub const RELIEF_CORNER: f64 = 0.02;
+/// Farthest that a corner moves when tips are moved, in multiples of that move.
+pub const RELIEF_REACH: f64 = 3.0;
+/// Rounds of contact analysis and relief.
+pub const RELIEF_ROUNDS: usize = 2;

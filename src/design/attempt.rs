@@ -145,6 +145,8 @@ pub(super) struct Attempt {
     rounding: fit::LimitCost,
     /// In modules.
     allowed_interference: f64,
+    /// Places relieved, and the worst of them in pitches.
+    relief: (usize, f64),
 }
 
 impl Attempt {
@@ -205,6 +207,7 @@ impl Attempt {
             contact,
             rounding,
             allowed_interference,
+            relief: (0, 0.0),
         })
     }
 
@@ -220,7 +223,49 @@ impl Attempt {
             let gears = [&self.finished[0], &self.finished[1]];
             contact(Some(self.contact), poses, centrodes, module, gears)?
         };
+        if options.clearance > 0.0 {
+            self.relieve()?;
+        }
         Ok(self)
+    }
+
+    /// Carves from the follower what would catch under load.
+    fn relieve(&mut self) -> Result<(), DesignError> {
+        let (centrodes, module) = (&self.centrodes, self.pair.module);
+        let t = &centrodes.transmission;
+        let cycle = t.driver_period() * f64::from(teeth::cycle_periods(t));
+        let follower_teeth = self.settings.teeth * t.follower_fold() / t.driver_fold();
+        let pitch = std::f64::consts::TAU / f64::from(follower_teeth);
+        for _ in 0..policy::RELIEF_ROUNDS {
+            let summary = &self.contact.summary;
+            if summary.lost_poses + summary.lost_poses_reversed > 0 {
+                break;
+            }
+            let behind: Vec<f64> = self.contact.poses.iter().map(|p| p.play_behind).collect();
+            let ahead: Vec<f64> = self.contact.poses.iter().map(|p| p.play_ahead).collect();
+            let [driver, follower] = &self.finished;
+            let plays = [behind.as_slice(), ahead.as_slice()];
+            let Some(made) =
+                teeth::relieved(centrodes, driver, follower, module, cycle, plays, pitch)
+            else {
+                break;
+            };
+            self.relief.0 += made.places;
+            self.relief.1 = self.relief.1.max(made.worst);
+            self.finished[1] = made.follower;
+            let gears = [&self.finished[0], &self.finished[1]];
+            self.contact = contact(None, policy::CONTACT_POSES, centrodes, module, gears)?;
+        }
+        if self.relief.0 > 0 {
+            let lowered =
+                [0, 1].map(|i| self.finished[i].with_tips_lowered(policy::RELIEF_TIP * module));
+            if let [Some(driver), Some(follower)] = lowered {
+                self.finished = [driver, follower];
+                let gears = [&self.finished[0], &self.finished[1]];
+                self.contact = contact(None, policy::CONTACT_POSES, centrodes, module, gears)?;
+            }
+        }
+        Ok(())
     }
 
     /// 99th percentile of the transmission error without clearance, in pitches.
@@ -330,6 +375,13 @@ impl Attempt {
         if rounded > policy::LIMIT_WORTH_SAYING {
             steps.push(format!(
                 "corners too sharp for the teeth were rounded: {rounded:.3} in the measure of E_s"
+            ));
+        }
+        if self.relief.0 > 0 {
+            steps.push(format!(
+                "{} places of the follower were relieved that would have caught under load, by up to {:.1} % of a pitch",
+                self.relief.0,
+                100.0 * self.relief.1
             ));
         }
         let transmission = &self.centrodes.transmission;

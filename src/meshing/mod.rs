@@ -11,6 +11,7 @@ mod play;
 #[cfg(test)]
 mod spur;
 mod summary;
+mod surface;
 mod verdict;
 mod world;
 

@@ -4,7 +4,8 @@
 //! the driver turns by one radian, torque such that the load is the square of the centre distance.
 
 use super::partition::{PartitionError, convex_partition};
-use crate::geometry::Point;
+use super::surface::Surface;
+use crate::geometry::{self, Point};
 use crate::policy;
 use rapier2d_f64::dynamics::{
     CCDSolver, GenericJointBuilder, ImpulseJointSet, IntegrationParameters, IslandManager,
@@ -15,7 +16,9 @@ use rapier2d_f64::geometry::{
     BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SharedShape,
 };
 use rapier2d_f64::math::{Pose, Vector};
-use rapier2d_f64::pipeline::PhysicsPipeline;
+use rapier2d_f64::pipeline::{
+    ActiveHooks, ContactModificationContext, PhysicsHooks, PhysicsPipeline,
+};
 use std::f64::consts::TAU;
 
 /// What a world is made of. Lengths mm, angles radians.
@@ -62,6 +65,7 @@ pub(super) struct World {
     ccd: CCDSolver,
     gears: [RigidBodyHandle; 2],
     shapes: [ColliderHandle; 2],
+    surfaces: Surfaces,
     /// Rotations without wrapping.
     angles: [f64; 2],
     /// World lengths per mm.
@@ -98,7 +102,11 @@ impl World {
         let mut joints = ImpulseJointSet::new();
         let gears = [bodies.insert(driver), bodies.insert(follower)];
         let collider = |shape: SharedShape| {
-            ColliderBuilder::new(shape).density(0.0).friction(input.friction).restitution(0.0)
+            ColliderBuilder::new(shape)
+                .density(0.0)
+                .friction(input.friction)
+                .restitution(0.0)
+                .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS)
         };
         let shapes = [
             colliders.insert_with_parent(collider(driver_shape), gears[0], &mut bodies),
@@ -113,6 +121,13 @@ impl World {
                 .motor_max_force(JointAxis::AngX, limit);
             joints.insert(ground, gears[0], motor, true);
         }
+        let surfaces = Surfaces {
+            driver: shapes[0],
+            surfaces: input.outlines.map(|outline| {
+                let scaled: Vec<Point> = outline.iter().map(|p| p * scale).collect();
+                Surface::new(&scaled, policy::WORLD_MODULE)
+            }),
+        };
         let softness = SpringCoefficients::new(1.0 / input.step, 1.0);
         let parameters = IntegrationParameters {
             dt: input.step,
@@ -139,6 +154,7 @@ impl World {
             ccd: CCDSolver::new(),
             gears,
             shapes,
+            surfaces,
             angles: input.angles,
             scale,
             load,
@@ -164,7 +180,7 @@ impl World {
             &mut self.multibodies,
             &mut self.soft,
             &mut self.ccd,
-            &(),
+            &self.surfaces,
             &(),
         );
         for (gear, angle) in self.gears.iter().zip(&mut self.angles) {
@@ -214,6 +230,34 @@ impl World {
             }
         }
         found
+    }
+}
+
+/// Takes away the contacts with the inner sides of convex pieces.
+struct Surfaces {
+    driver: ColliderHandle,
+    /// Of driver and follower, in world lengths.
+    surfaces: [Surface; 2],
+}
+
+impl PhysicsHooks for Surfaces {
+    fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
+        let [first, second] = if context.collider1 == self.driver { [0, 1] } else { [1, 0] }
+            .map(|i| &self.surfaces[i]);
+        let poses = [context.rigid_body1, context.rigid_body2]
+            .map(|body| body.and_then(|b| context.bodies.get(b)).map(|b| *b.position()));
+        let [Some(one), Some(two)] = poses else { return };
+        let Some(rigid) = context.rigid_mut() else { return };
+        let normal = *rigid.normal;
+        let faces = |surface: &Surface, pose: &Pose, at: Vector, normal: Vector| {
+            let at = pose.inverse_transform_point(at);
+            let normal = pose.rotation.inverse() * normal;
+            surface.faces(Point::new(at.x, at.y), geometry::Vector::new(normal.x, normal.y))
+        };
+        rigid.solver_contacts.retain(|contact| {
+            faces(first, &one, contact.anchor1, normal)
+                && faces(second, &two, contact.anchor2, -normal)
+        });
     }
 }
 

@@ -39,18 +39,30 @@ pub(crate) fn carve(
     depth: f64,
     only_inside: bool,
 ) -> Option<Carved> {
-    let tool = Tool::new(tool, depth);
-    let index = RadialIndex::new(blank);
     // Some instants past the end: where the cycle closes, its pieces must overlap, not just meet.
     let frames: Vec<Instant> = (0..=instants + policy::CARVE_SURROUND)
         .into_par_iter()
         .map(|k| rolling.at(arc * k as f64 / instants as f64))
         .collect();
+    carve_at(&frames, tool, blank, depth, only_inside)
+}
+
+/// The same at given instants, in order; neighbours must be close.
+pub(crate) fn carve_at(
+    frames: &[Instant],
+    tool: &[Point],
+    blank: &[Point],
+    depth: f64,
+    only_inside: bool,
+) -> Option<Carved> {
+    let tool = Tool::new(tool, depth);
+    let index = RadialIndex::new(blank);
     let active: Vec<Vec<usize>> = frames
         .par_windows(2)
         .with_min_len(16)
         .map(|pair| tool.active(&pair[0], &pair[1], &index, only_inside))
         .collect();
+    let found = active.iter().any(|corners| !corners.is_empty());
     let active = if only_inside { surrounded(&active, tool.points.len()) } else { active };
     let mut pieces: Vec<Vec<Point>> = frames
         .par_windows(2)
@@ -74,6 +86,12 @@ pub(crate) fn carve(
             );
         }
     }
+    if only_inside && found && !closes(frames) {
+        // What is swept ends with the tool's own outline at the first and the last instant.
+        for at in frames.first().into_iter().chain(frames.last()) {
+            pieces.push(tool.points.iter().map(|&p| path(p, at)).collect());
+        }
+    }
     if pieces.is_empty() {
         return Some(Carved { outline: blank.to_vec(), cuts: 0 });
     }
@@ -89,6 +107,12 @@ pub(crate) fn carve(
         .filter_map(|face| face.into_iter().next())
         .find(|ring| geometry::contains(ring, Point::origin()))?;
     Some(Carved { outline, cuts: pieces.len() })
+}
+
+/// Whether the instants run through a whole cycle of both gears.
+fn closes(frames: &[Instant]) -> bool {
+    let (Some(first), Some(last)) = (frames.first(), frames.last()) else { return true };
+    last.s > first.s
 }
 
 struct Tool<'a> {

@@ -6,12 +6,14 @@ mod flank;
 mod layout;
 mod profile;
 mod record;
+mod relief;
 mod rolling;
 mod root;
 mod wave;
 
 pub use profile::{EdgeKind, Profile};
 pub use record::{ToothRecord, ToothShape};
+pub use relief::{Relieved, relieved};
 pub use rolling::Side;
 pub use wave::{regular_wave_pair, wave_pair};
 

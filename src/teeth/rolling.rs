@@ -59,6 +59,22 @@ pub(crate) struct Instant {
 }
 
 impl Instant {
+    /// The gears at driver angle `phi` and follower angle `psi`, the follower turning `speed` times as
+    /// fast: any motion, not the rolling one. The pitch point is the instant centre; there is no arc
+    /// length and no curvature.
+    pub(crate) fn of_motion(phi: f64, psi: f64, speed: f64, center_distance: f64) -> Self {
+        Self {
+            s: 0.0,
+            driver_turn: phi.sin_cos(),
+            follower_turn: psi.sin_cos(),
+            pitch: Point::new(center_distance * speed / (1.0 + speed), 0.0),
+            tangent: Vector::new(0.0, -1.0),
+            normal: Vector::new(1.0, 0.0),
+            curvatures: (0.0, 0.0),
+            center_distance,
+        }
+    }
+
     /// A world point in the frame of one gear.
     pub(crate) fn to_local(self, side: Side, p: Point) -> Point {
         match side {
