@@ -272,6 +272,32 @@ mod tests {
     }
 
     #[test]
+    fn gears_of_a_train_touch_their_neighbours_only_and_the_last_is_loaded() {
+        let (mut assembly, _) = wavy_pair();
+        let mut third = assembly.gears[0].clone();
+        third.gear.name = "third".to_owned();
+        third.axis = Point::new(160.0, 0.0);
+        assembly.gears.push(third);
+        let text = Mjcf { load: 70.0, ..Mjcf::default() }.scene(&assembly).unwrap();
+        let attribute = |line: &str, name: &str| -> u64 {
+            let rest = line.split(&format!("{name}=\"")).nth(1).unwrap();
+            rest.split('"').next().unwrap().parse().unwrap()
+        };
+        let flags: Vec<[u64; 2]> = text
+            .lines()
+            .filter(|l| l.contains("<default class=\"gear"))
+            .map(|l| ["contype", "conaffinity"].map(|name| attribute(l, name)))
+            .collect();
+        let touch =
+            |i: usize, k: usize| flags[i][0] & flags[k][1] != 0 || flags[k][0] & flags[i][1] != 0;
+        let touching = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|(i, k)| touch(i, k));
+        assert_eq!(touching, [false, true, false, false, true, false]);
+        // The third turns counter-clockwise again, so its load pulls clockwise.
+        assert!(text.contains("joint=\"third\" gaintype=\"fixed\" gainprm=\"-1\""));
+        assert!(text.contains("biasprm=\"-70 0 0\""));
+    }
+
+    #[test]
     fn a_disc_has_the_inertia_of_the_textbook() {
         let disc: Vec<Point> = (0..4096)
             .map(|i| TAU * f64::from(i) / 4096.0)

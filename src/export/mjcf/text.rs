@@ -27,8 +27,7 @@ pub(super) fn text(scene: &Scene<'_>) -> String {
 fn head(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
     let options = scene.options;
     let last = scene.bodies.len() - 1;
-    let teeth: Vec<String> =
-        scene.bodies.iter().map(|b| b.placed.gear.teeth.to_string()).collect();
+    let teeth: Vec<String> = scene.bodies.iter().map(|b| b.placed.gear.teeth.to_string()).collect();
     let names: Vec<String> = scene.bodies.iter().map(|b| escaped(b)).collect();
     let friction = if options.friction > 0.0 { 3 } else { 1 };
     writeln!(out, "<?xml version=\"1.0\" encoding=\"utf-8\"?>")?;
@@ -79,6 +78,7 @@ fn head(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
   <visual>
     <global azimuth=\"90\" elevation=\"-65\" offwidth=\"1280\" offheight=\"960\"/>
     <headlight ambient=\"0.35 0.35 0.35\" diffuse=\"0.35 0.35 0.35\" specular=\"0.1 0.1 0.1\"/>
+    <map shadowclip=\"3\"/>
     <quality shadowsize=\"4096\"/>
   </visual>
   <default>
@@ -143,7 +143,7 @@ fn world(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
     let height = scene.thickness;
     // Seen from above and a little from the front.
     let (sin, cos) = 65_f64.to_radians().sin_cos();
-    let away = 1.5 * extent;
+    let away = 1.2 * extent;
     writeln!(
         out,
         "  <worldbody>
@@ -164,12 +164,7 @@ fn world(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
     writeln!(out, "  </worldbody>")
 }
 
-fn write_body(
-    scene: &Scene<'_>,
-    i: usize,
-    body: &Body<'_>,
-    out: &mut String,
-) -> std::fmt::Result {
+fn write_body(scene: &Scene<'_>, i: usize, body: &Body<'_>, out: &mut String) -> std::fmt::Result {
     let name = escaped(body);
     let height = scene.thickness;
     let off_axis = policy::MJCF_OFF_AXIS * body.inertia;
@@ -192,7 +187,7 @@ fn write_body(
         axle = body.axle,
         px = body.pointer.x,
         py = body.pointer.y,
-        line = 0.1 * policy::MJCF_MODULE,
+        line = 0.25 * policy::MJCF_MODULE,
     )?;
     for k in 0..body.pieces.len() {
         writeln!(out, "      <geom type=\"mesh\" mesh=\"g{i}p{k}\"/>")?;
