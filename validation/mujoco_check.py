@@ -6,7 +6,8 @@ Runs scene.xml of a design folder for two cycles. The follower's angle is compar
   with psi      the motion in design.json, repeated for ever;
   with contact  psi less the free play behind, found from the outlines with shapely (play.py);
   with rapier   simulation.csv, the simulation of Centrode itself, where the folder has one: angle
-                and driver torque averaged over a quarter tooth. Both must have run with one friction.
+                and driver torque averaged over a quarter tooth. Its load must be the scene's,
+                its friction the one given here.
 
 Friction is left out unless --friction says otherwise: the programs' models of it differ.
 
@@ -28,6 +29,7 @@ import sys
 
 import mujoco
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 import play
 
@@ -43,8 +45,8 @@ WINDOW = 0.25
 LEAD_IN = 1.0
 # Places a tooth at which the contact is worked out.
 CONTACTS_PER_TOOTH = 8
-# The contact jumps where it moves by more than this against psi between two places, radians (0.03 degrees).
-JUMP = math.radians(0.03)
+# The contact jumps where it moves by more than this against psi between two places, radians (0.05 degrees).
+JUMP = math.radians(0.05)
 # Teeth after a jump until the follower has settled.
 SETTLED = 0.35
 # A gear that turns at more than this many times the speed of the driver was flung away.
@@ -180,14 +182,17 @@ def judge(folder, cycles, friction):
         return {"folder": str(folder), "pass": False, "failures": [fault or "it did not turn"]}
     phi, follower, torque, loaded = made.T
     step = float(np.mean(np.diff(phi)))
-    wanted = np.array([psi(a) for a in phi])
+    # psi is asked once for each place of a fine grid: it is smooth, and steps are many.
+    grid = np.linspace(phi[0], phi[-1], max(len(phi) // 8, 2))
+    wanted = CubicSpline(grid, [psi(a) for a in grid])(phi)
+    ideal_slope = CubicSpline(grid, [slope(a) for a in grid])(phi)
     # Straight between places, and none where either side has none.
     at = ((phi - start) % cycle) / cycle * count
     low = np.minimum(at.astype(int), count - 1)
     contact = wanted - lags[low] - (lags[(low + 1) % count] - lags[low]) * (at - low)
     half = round(0.5 * WINDOW * tooth / step)
     window = averaged(torque, half) / scene.load
-    ideal = averaged(np.array([slope(a) for a in phi]), half)
+    ideal = averaged(ideal_slope, half)
     tracking = follower - contact
     unsteady = jumping(lags, at)
     steady = np.where(unsteady, np.nan, tracking)
