@@ -611,3 +611,24 @@ pub const RELIEF_CORNER: f64 = 0.02;
 pub const RELIEF_REACH: f64 = 3.0;
 /// Rounds of contact analysis and relief.
 pub const RELIEF_ROUNDS: usize = 2;
+
+// ---- Files: MuJoCo scenes -----------------------------------------------------------------------
+
+/// Length of a module in a MuJoCo scene, its units: its collision code has absolute tolerances of 1e-6
+/// units, which are to stay far below a module.
+pub const MJCF_MODULE: f64 = 2.0;
+/// Steps of a MuJoCo scene while the driver turns by one tooth: its contacts give way over two steps
+/// and then track to 0.005 degrees.
+pub const MJCF_STEPS_PER_TOOTH: u32 = 256;
+/// Stiffness of the drive in a MuJoCo scene, loads over speeds of the driver: it slows by a
+/// two-hundredth under a torque like the load.
+pub const MJCF_DRIVE: f64 = 200.0;
+/// Share of a gear's inertia that a MuJoCo scene puts into a mass off the axis. With none the contacts
+/// are infinitely hard to it, and runs diverge.
+pub const MJCF_OFF_AXIS: f64 = 0.5;
+/// Moment of a gear about an axis in its plane over that about its own: at least a half, as in any rigid body.
+pub const MJCF_PLANE_INERTIA: f64 = 0.6;
+/// Impedance of contacts in a MuJoCo scene, the same at every depth: 1 would be rigid and diverge.
+pub const MJCF_IMPEDANCE: f64 = 0.75;
+/// MuJoCo's solver stops when accelerations (in driver speeds squared) change by less.
+pub const MJCF_TOLERANCE: f64 = 1e-10;

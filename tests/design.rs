@@ -16,7 +16,7 @@ const POSES: usize = 64;
 const OVERLAP: f64 = 1e-4;
 
 /// Everything a run writes.
-const FILES: [&str; 7] = [
+const FILES: [&str; 8] = [
     "design.json",
     "driver.stl",
     "follower.stl",
@@ -24,6 +24,7 @@ const FILES: [&str; 7] = [
     "pair.obj",
     "pair.svg",
     "report.html",
+    "scene.xml",
 ];
 
 struct Made {

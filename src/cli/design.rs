@@ -7,7 +7,7 @@ use centrode::design::{
     BoreChoice, Design, DesignOptions, Record, Scale, TeethStyle, ToothCount, design,
 };
 use centrode::export::{
-    Export, ExportError, Glb, Obj, Parts, Staging, Stl, write_atomically, write_json,
+    Export, ExportError, Glb, Mjcf, Obj, Parts, Staging, Stl, write_atomically, write_json,
 };
 use centrode::fit::{FitOptions, Limits, Ratio, Search};
 use centrode::outline::{LoadOptions, Shape, Smoothing, load};
@@ -120,7 +120,7 @@ fn write(made: &Design, meshes: &[Mesh], args: &DesignArgs) -> anyhow::Result<Ve
 
 fn write_into(folder: &Path, made: &Design, meshes: &[Mesh]) -> Result<Vec<PathBuf>, ExportError> {
     let parts = Parts { assembly: &made.assembly, meshes };
-    let formats: [&dyn Export; 3] = [&Glb::default(), &Stl, &Obj];
+    let formats: [&dyn Export; 4] = [&Glb::default(), &Stl, &Obj, &Mjcf::default()];
     let mut files = Vec::new();
     for format in formats {
         files.extend(format.write(parts, folder)?);

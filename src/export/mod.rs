@@ -8,6 +8,7 @@ mod atomic;
 mod glb;
 mod json;
 mod keys;
+mod mjcf;
 mod obj;
 mod staging;
 mod stl;
@@ -15,6 +16,7 @@ mod stl;
 pub use atomic::{ExportError, prepare_folder, write_atomically};
 pub use glb::Glb;
 pub use json::write_json;
+pub use mjcf::Mjcf;
 pub use obj::Obj;
 pub use staging::Staging;
 pub use stl::Stl;
@@ -88,7 +90,7 @@ mod tests {
         let (assembly, meshes) = wavy_pair();
         let folder = tempfile::tempdir().unwrap();
         let parts = Parts { assembly: &assembly, meshes: &meshes };
-        let formats: [&dyn Export; 3] = [&Stl, &Obj, &Glb::default()];
+        let formats: [&dyn Export; 4] = [&Stl, &Obj, &Glb::default(), &Mjcf::default()];
         for format in formats {
             let written = format.write(parts, folder.path()).unwrap();
             let names: Vec<PathBuf> =
@@ -97,6 +99,6 @@ mod tests {
             assert!(written.iter().all(|p| p.metadata().unwrap().len() > 1000));
         }
         let left = std::fs::read_dir(folder.path()).unwrap().count();
-        assert_eq!(left, 4, "no temporary file stays");
+        assert_eq!(left, 5, "no temporary file stays");
     }
 }
