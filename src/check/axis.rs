@@ -51,9 +51,7 @@ pub(super) fn axis(
     let bore = if gear.holes.len() == 1 { gear.holes.first() } else { about_origin() };
     match bore {
         Some(hole) => Ok((hole.centroid(), AxisSource::Bore)),
-        None if gear.outline.contains(Point::origin()) => {
-            Ok((Point::origin(), AxisSource::Origin))
-        }
+        None if gear.outline.contains(Point::origin()) => Ok((Point::origin(), AxisSource::Origin)),
         None => Err(CheckError::NoAxis { gear: name, holes: gear.holes.len() }),
     }
 }

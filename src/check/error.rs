@@ -18,7 +18,9 @@ pub enum CheckError {
         value: f64,
     },
     /// An axis beside its gear.
-    #[error("the {gear}'s axis ({x:.3}, {y:.3}) lies outside the gear; give one inside its outline")]
+    #[error(
+        "the {gear}'s axis ({x:.3}, {y:.3}) lies outside the gear; give one inside its outline"
+    )]
     AxisOutside {
         /// `driver` or `follower`.
         gear: &'static str,

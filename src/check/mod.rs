@@ -178,9 +178,11 @@ pub fn check(
     let given = options.phase.or(law.phase.filter(|_| law.source == MotionSource::Record));
     let phase = match given.or(law.phase) {
         Some(phase) => phase,
-        None => phase::for_motion(&pair, &|a| law.psi(a), law.cycle)
-            .ok_or(CheckError::OverlapAtStart)?
-            .phase,
+        None => {
+            phase::for_motion(&pair, &|a| law.psi(a), law.cycle)
+                .ok_or(CheckError::OverlapAtStart)?
+                .phase
+        }
     };
     judged(&pair, axes, &law, (phase, given.is_some()), options, notes)
 }
@@ -249,9 +251,10 @@ fn judged(
     let analysis = analyse(&input, &options.contact)?;
     let teeth = [pair.teeth[0].count, pair.teeth[1].count];
     let swing = swing(&analysis.summary, &options.limits);
-    let sound =
-        judge(analysis.clone(), Vec::new(), pair.module, teeth[0], &options.limits).faults.is_empty()
-            && !matches!(swing, Some((_, true)));
+    let sound = judge(analysis.clone(), Vec::new(), pair.module, teeth[0], &options.limits)
+        .faults
+        .is_empty()
+        && !matches!(swing, Some((_, true)));
     let mut runs = Vec::new();
     if sound {
         for run in &options.runs {

@@ -11,7 +11,9 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MotionFileError {
     /// Not text, or a line that is not two numbers.
-    #[error("line {line} of the motion is not two finite numbers; write driver and follower angle in radians there")]
+    #[error(
+        "line {line} of the motion is not two finite numbers; write driver and follower angle in radians there"
+    )]
     BadLine {
         /// Number of the line, from 1.
         line: usize,
@@ -134,15 +136,13 @@ pub(super) fn law(
             Ok(Some(Law::even(*ratio, TAU * turns, MotionSource::Ratio)))
         }
         (MotionGiven::Sampled { driver, follower }, _) => {
-            let motion =
-                SampledMotion::new(driver, follower).map_err(MotionFileError::Samples)?;
+            let motion = SampledMotion::new(driver, follower).map_err(MotionFileError::Samples)?;
             let repeats = repeats(driver, follower)?;
             Ok(Some(Law::sampled(motion, repeats, None, MotionSource::Samples)))
         }
         (MotionGiven::Unknown, Some(record)) => {
             let (driver, follower) = (&record.driver_angle, &record.follower_angle);
-            let motion =
-                SampledMotion::new(driver, follower).map_err(MotionFileError::Samples)?;
+            let motion = SampledMotion::new(driver, follower).map_err(MotionFileError::Samples)?;
             let repeats = repeats(driver, follower)?;
             Ok(Some(Law::sampled(motion, repeats, Some(0.0), MotionSource::Record)))
         }

@@ -5,7 +5,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Context;
-use centrode::check::{CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns};
+use centrode::check::{
+    CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns,
+};
 use centrode::meshing::{DynamicsOptions, Reason, Verdict};
 use centrode::outline::{GearRole, load_toothed};
 use serde::Serialize;
@@ -41,8 +43,12 @@ pub(crate) fn run(args: &CheckArgs) -> anyhow::Result<Outcome> {
     progress.doing("checking the pair");
     let report = check(&driver, &follower, &options)?;
     progress.done();
-    let text = if args.json { json(&report)? } else { human(&report, start.elapsed().as_secs_f64()) };
-    std::io::stdout().lock().write_all(text.as_bytes()).context("cannot write to standard output")?;
+    let text =
+        if args.json { json(&report)? } else { human(&report, start.elapsed().as_secs_f64()) };
+    std::io::stdout()
+        .lock()
+        .write_all(text.as_bytes())
+        .context("cannot write to standard output")?;
     Ok(if report.verdict == Verdict::DoesNotMesh { Outcome::NotSound } else { Outcome::Good })
 }
 
@@ -56,7 +62,8 @@ fn motion(args: &CheckArgs) -> anyhow::Result<MotionGiven> {
 }
 
 fn read_motion(path: &Path) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
-    let length = std::fs::metadata(path).context("the motion cannot be read; check the path")?.len();
+    let length =
+        std::fs::metadata(path).context("the motion cannot be read; check the path")?.len();
     let limit = centrode::policy::INPUT_BYTES;
     anyhow::ensure!(length <= limit, "the motion has more than {limit} bytes; give fewer samples");
     let text = std::fs::read_to_string(path)
@@ -206,7 +213,9 @@ fn json(report: &CheckReport) -> anyhow::Result<String> {
         contact: report.contact.as_ref().map(|c| ContactRecord {
             contact_ratio: c.contact_ratio,
             transmission_error_peak_to_peak: c.transmission_error.map(|e| e.peak_to_peak),
-            transmission_error_peak_to_peak_pitch: c.transmission_error_pitch.map(|e| e.peak_to_peak),
+            transmission_error_peak_to_peak_pitch: c
+                .transmission_error_pitch
+                .map(|e| e.peak_to_peak),
             min_backlash: c.min_backlash.map(|w| w.value),
             max_backlash: c.max_backlash.map(|w| w.value),
             lost_angle: c.lost_angle,

@@ -93,8 +93,9 @@ pub(crate) fn two_counts(text: &str) -> Result<[u32; 2], String> {
     let (least, most) = centrode::policy::COUNT_RANGE;
     let count = |t: &str| t.trim().parse().ok().filter(|n| (least..=most).contains(&(*n as usize)));
     let both = text.split_once(',').and_then(|(n, m)| count(n).zip(count(m)));
-    both.map(|(n, m): (u32, u32)| [n, m])
-        .ok_or_else(|| format!("'{text}' are not two tooth counts from {least} to {most}; write them like 32,48"))
+    both.map(|(n, m): (u32, u32)| [n, m]).ok_or_else(|| {
+        format!("'{text}' are not two tooth counts from {least} to {most}; write them like 32,48")
+    })
 }
 
 /// A number of zero or more.

@@ -153,8 +153,13 @@ fn pieces(entity: &EntityType) -> Result<Vec<Piece>, &'static str> {
             let control: Vec<Point> = curve.control_points.iter().map(flat).collect();
             let degree = usize::try_from(curve.degree_of_curve).unwrap_or(0);
             let per_span = policy::SPLINE_CHORDS;
-            let made =
-                spline::points(degree, &curve.knot_values, &control, &curve.weight_values, per_span);
+            let made = spline::points(
+                degree,
+                &curve.knot_values,
+                &control,
+                &curve.weight_values,
+                per_span,
+            );
             vec![Piece::Points(made.ok_or("a spline whose knots do not fit its points")?)]
         }
         EntityType::Ellipse(_) => return Err("an ellipse"),
