@@ -621,6 +621,8 @@ pub const PHASE_STEPS: f64 = 4.0;
 pub const PHASE_POSES: usize = 24;
 /// Poses to a driver tooth at which the chosen phase is settled, and most of them.
 pub const SETTLE_POSES: (f64, usize) = (3.0, 768);
+/// Places on a pitch at which overlap is measured when the gears are too large for each other.
+pub const LEAST_OVERLAP_STEPS: f64 = 20.0;
 /// Stray from the candidate, in pitches, that speaks against it.
 pub const PHASE_STRAY: f64 = 0.25;
 /// Steps to a driver tooth when motion is traced by contact.

@@ -63,6 +63,12 @@ impl Pair {
         let radius = self.radii(driver_angle, follower_angle)[1];
         self.finder.gap(driver_angle, follower_angle, radius)
     }
+
+    /// How deep the gears lie in each other, mm.
+    pub(super) fn depth(&self, driver_angle: f64, follower_angle: f64) -> f64 {
+        let radius = self.radii(driver_angle, follower_angle)[1];
+        self.finder.depth(driver_angle, follower_angle, radius)
+    }
 }
 
 pub(super) fn gcd(a: u32, b: u32) -> u32 {

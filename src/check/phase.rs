@@ -51,11 +51,16 @@ pub(super) fn for_motion(pair: &Pair, motion: Motion<'_>, cycle: f64) -> Option<
         (0..count).map(|i| (i as f64 * policy::GOLDEN_FRACTION).fract() * cycle).collect()
     };
     // A damaged place may hold no candidate; others do.
-    let candidates = poses(8).into_iter().find_map(|at| {
+    let found = poses(8).into_iter().find_map(|at| {
         let found = candidates(pair, at);
         let back = |angle: f64| PI - (PI - angle + motion(at)).rem_euclid(TAU);
         (!found.is_empty()).then(|| found.into_iter().map(back).collect::<Vec<_>>())
-    })?;
+    });
+    let Some(candidates) = found else {
+        // Gears too large for each other: where they are least so, for the report to tell.
+        let phase = least_overlap(pair, motion, &poses(8))?;
+        return Some(Fitted { phase, share: 0.0 });
+    };
     let coarse = poses(policy::PHASE_POSES);
     let tried: Vec<Fitted> =
         candidates.par_iter().map(|&phase| fitted(pair, motion, phase, &coarse)).collect();
@@ -68,6 +73,31 @@ pub(super) fn for_motion(pair: &Pair, motion: Motion<'_>, cycle: f64) -> Option<
     let teeth = f64::from(pair.teeth[0].count) * cycle / TAU;
     let count = ((per_tooth * teeth) as usize).clamp(policy::PHASE_POSES, most);
     Some(fitted(pair, motion, chosen.phase, &poses(count)))
+}
+
+/// The phase of least overlap over some poses, if it stays below [`policy::DEEP_INTERFERENCE`].
+fn least_overlap(pair: &Pair, motion: Motion<'_>, poses: &[f64]) -> Option<f64> {
+    let limit = policy::DEEP_INTERFERENCE * pair.module;
+    let mut guesses = Vec::new();
+    // One gap is as good as another on round gears.
+    let end = if pair.is_round() { -PI + TAU / f64::from(pair.teeth[1].count) } else { PI };
+    let mut angle = -PI;
+    while angle < end {
+        guesses.push(angle);
+        angle += pair.pitch(0.0, angle) / policy::LEAST_OVERLAP_STEPS;
+    }
+    let overlap = |&phase: &f64| -> Option<(f64, f64)> {
+        let mut worst = 0.0_f64;
+        for &at in poses {
+            worst = worst.max(pair.depth(at, phase + motion(at)));
+            if worst > limit {
+                return None;
+            }
+        }
+        Some((worst, phase))
+    };
+    let tried: Vec<(f64, f64)> = guesses.par_iter().filter_map(overlap).collect();
+    tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, phase)| phase)
 }
 
 /// Moves a phase to the middle of what all poses leave free, or to the middle of their middles where

@@ -45,6 +45,27 @@ impl GapFinder {
         Self { driver, follower, center_distance, module }
     }
 
+    /// How deep the gears lie in each other at two angles, mm; 0 if clear. Past half a module only
+    /// a lower bound.
+    #[must_use]
+    pub fn depth(&self, driver_angle: f64, follower_angle: f64, follower_radius: f64) -> f64 {
+        let pose = self.pose(driver_angle, follower_angle, follower_radius);
+        free_play(&self.driver, &self.follower, &pose).depth
+    }
+
+    fn pose(&self, driver_angle: f64, follower_angle: f64, follower_radius: f64) -> Pose {
+        let pitch = PI * self.module / follower_radius;
+        Pose {
+            driver_angle,
+            follower_angle,
+            center_distance: self.center_distance,
+            max_play: (policy::GAP_REACH * pitch).min(FRAC_PI_4),
+            slack: 0.0,
+            deep: policy::DEEP_INTERFERENCE * self.module,
+            pitch_point: Point::new(self.center_distance - follower_radius, 0.0),
+        }
+    }
+
     /// The gap about the follower angle `guess` at a driver angle, searched up to
     /// [`policy::GAP_REACH`] of the follower's pitch at `follower_radius` (mm) from it. `None`
     /// where one side is not met within that or the gears lie deep in each other.
@@ -57,15 +78,7 @@ impl GapFinder {
         let mut angle = guess;
         let mut found = None;
         for _ in 0..policy::GAP_ROUNDS {
-            let pose = Pose {
-                driver_angle,
-                follower_angle: angle,
-                center_distance: self.center_distance,
-                max_play: reach,
-                slack: 0.0,
-                deep: policy::DEEP_INTERFERENCE * self.module,
-                pitch_point: Point::new(self.center_distance - follower_radius, 0.0),
-            };
+            let pose = self.pose(driver_angle, angle, follower_radius);
             let play = free_play(&self.driver, &self.follower, &pose);
             if play.depth > pose.deep {
                 return None;
