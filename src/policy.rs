@@ -633,6 +633,9 @@ pub const TRACE_PATIENCE: usize = 16;
 pub const TRACE_STRAY: f64 = 0.3;
 /// Gaps wider than this many pitches tell nothing of the motion.
 pub const TRACE_WIDEST: f64 = 0.8;
+/// Pitches by which a gap may be wider than the typical one and still be believed: backlash of good
+/// pairs varies by less, a missing tooth opens more.
+pub const TRACE_WIDE: f64 = 0.06;
 /// Half the window, in driver teeth, over which the traced motion is smoothed.
 pub const TRACE_WINDOW: f64 = 1.3;
 /// Share of a trace that must be believed to make a motion.

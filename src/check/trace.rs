@@ -2,6 +2,7 @@
 
 use super::pair::Pair;
 use super::phase::candidates;
+use super::teeth::median;
 use crate::meshing::SampledMotion;
 use crate::policy;
 use rayon::prelude::*;
@@ -33,6 +34,8 @@ struct Sample {
     driver_angle: f64,
     /// Middle of the gap, or where it should be.
     center: f64,
+    /// Width of the gap in pitches.
+    width: f64,
     believed: bool,
 }
 
@@ -56,7 +59,8 @@ pub(super) fn traced(pair: &Pair, phase: Option<f64>) -> Result<Traced, Untraced
         .filter(|(_, t)| t.share > best - 0.02)
         .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
     let (start, first) = chosen.ok_or(Untraced::NoStart)?;
-    let trace = follow(pair, start, false);
+    let mut trace = follow(pair, start, false);
+    doubt_wide_gaps(&mut trace.samples);
     if trace.share < policy::TRACE_SHARE {
         let at = first.stopped.or(trace.stopped).unwrap_or(0.0);
         return Err(Untraced::Stopped { at });
@@ -109,12 +113,21 @@ fn follow(pair: &Pair, start: f64, impatient: bool) -> Trace {
             missed += 1;
             stopped = stopped.or(Some(driver_angle));
         }
-        samples.push(Sample { driver_angle, center, believed: gap.is_some() });
+        let width = gap.map_or(0.0, |gap| (gap.to - gap.from) / pitch);
+        samples.push(Sample { driver_angle, center, width, believed: gap.is_some() });
         if impatient && missed > policy::TRACE_PATIENCE {
             break;
         }
     }
     Trace { samples, share: f64::from(believed_steps) / (steps + 1) as f64, stopped }
+}
+
+/// Where teeth are missing the gap is wide, and its middle is not where the teeth would hold it.
+fn doubt_wide_gaps(samples: &mut [Sample]) {
+    let widths = samples.iter().filter(|s| s.believed).map(|s| s.width).collect();
+    let Some(typical) = median(widths) else { return };
+    let widest = typical + policy::TRACE_WIDE;
+    samples.iter_mut().filter(|s| s.width > widest).for_each(|s| s.believed = false);
 }
 
 /// Local cubic regression over the believed samples, round the cycle; closes by `whole`.
