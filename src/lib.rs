@@ -1,6 +1,7 @@
 //! Centrode turns two drawings into a pair of non-circular gears that mesh.
 
 pub mod assembly;
+pub mod check;
 pub mod design;
 pub mod export;
 pub mod fit;

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use centrode::geometry::Point;
+use centrode::policy;
 use centrode::solid::Bore;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -21,6 +23,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Make a pair of gears from two shapes
     Design(Box<DesignArgs>),
+    /// Judge two gears, whoever made them: exit code 0 when they mesh, 1 when not, 2 for bad input
+    Check(Box<CheckArgs>),
     /// List the built-in shapes
     Shapes(ShapesArgs),
 }
@@ -32,6 +36,59 @@ pub(crate) struct ShapesArgs {
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) sheet: Option<PathBuf>,
     /// Print the names as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Options of `centrode check`.
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// Outline of the driver: SVG, DXF, CSV, JSON, STL or OBJ, or a folder with a design.json
+    #[arg(value_name = "DRIVER")]
+    pub(crate) driver: String,
+    /// Outline of the follower, likewise; from a design.json the follower is taken
+    #[arg(value_name = "FOLLOWER")]
+    pub(crate) follower: String,
+    /// Distance between the axes [default: that of the design.json]
+    #[arg(short = 'L', long, value_name = "LENGTH", value_parser = units::center_distance, allow_hyphen_values = true)]
+    pub(crate) center_distance: Option<f64>,
+    /// An even motion: turns of the driver for one turn of the follower
+    #[arg(short = 'k', long, value_name = "K", value_parser = units::ratio, conflicts_with = "motion", allow_hyphen_values = true)]
+    pub(crate) ratio: Option<f64>,
+    /// The motion as two columns, driver and follower angle in radians [default: from contact]
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) motion: Option<PathBuf>,
+    /// Axis of the driver in its file, mm [default: its bore, else the origin]
+    #[arg(long, value_name = "X,Y", value_parser = units::point, allow_hyphen_values = true)]
+    pub(crate) driver_axis: Option<Point>,
+    /// Axis of the follower in its file, mm
+    #[arg(long, value_name = "X,Y", value_parser = units::point, allow_hyphen_values = true)]
+    pub(crate) follower_axis: Option<Point>,
+    /// Teeth of driver and follower [default: counted]
+    #[arg(long, value_name = "N,M", value_parser = units::two_counts, allow_hyphen_values = true)]
+    pub(crate) teeth: Option<[u32; 2]>,
+    /// Turn of the follower's drawing, clockwise, at driver angle 0, degrees [default: found]
+    #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
+    pub(crate) phase: Option<f64>,
+    /// Judge by contact alone, without a rigid-body run
+    #[arg(long)]
+    pub(crate) no_simulate: bool,
+    /// Run the driver both ways round
+    #[arg(long, conflicts_with = "no_simulate")]
+    pub(crate) both: bool,
+    /// Torque that holds the follower back, N mm
+    #[arg(long, default_value_t = policy::DEFAULT_LOAD, value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
+    pub(crate) load: f64,
+    /// Speed of the driver, turns a minute
+    #[arg(long, default_value_t = policy::DEFAULT_RPM, value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
+    pub(crate) rpm: f64,
+    /// Friction between the flanks, 0 to 2
+    #[arg(long, default_value_t = policy::DEFAULT_FRICTION, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
+    pub(crate) friction: f64,
+    /// Thickness of the gears
+    #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) thickness: f64,
+    /// Print the verdict as JSON on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -1,6 +1,7 @@
 //! Arguments, progress and exit codes; everything else is the library's.
 
 mod args;
+mod check;
 mod design;
 mod progress;
 mod report;
@@ -39,6 +40,7 @@ impl Outcome {
 pub(crate) fn run(cli: Cli) -> anyhow::Result<Outcome> {
     match cli.command {
         Command::Design(args) => design::run(&args),
+        Command::Check(args) => check::run(&args),
         Command::Shapes(args) => shapes::run(&args),
     }
 }

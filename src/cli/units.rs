@@ -1,5 +1,6 @@
 //! Lengths and angles as people type them.
 
+use centrode::geometry::Point;
 use centrode::solid::Bore;
 
 /// Studs of the well-known building brick, mm.
@@ -65,6 +66,36 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err(format!("'{text}' is not a number above zero")),
     }
+}
+
+/// A ratio above zero: a number or a fraction such as 1/2.
+pub(crate) fn ratio(text: &str) -> Result<f64, String> {
+    let failed = || format!("'{text}' is not a ratio above zero; write it like 2 or 1/2");
+    let (over, under) = text.split_once('/').unwrap_or((text, "1"));
+    match (positive(over), positive(under)) {
+        (Ok(over), Ok(under)) if (over / under).is_finite() => Ok(over / under),
+        _ => Err(failed()),
+    }
+}
+
+/// A point in mm from `x,y`.
+pub(crate) fn point(text: &str) -> Result<Point, String> {
+    let failed = || format!("'{text}' is not a point; write it like 12.5,-3");
+    let (x, y) = text.split_once(',').ok_or_else(failed)?;
+    match (x.trim().parse::<f64>(), y.trim().parse::<f64>()) {
+        (Ok(x), Ok(y)) if x.is_finite() && y.is_finite() => Ok(Point::new(x, y)),
+        _ => Err(failed()),
+    }
+}
+
+/// Two tooth counts from `N,M`.
+pub(crate) fn two_counts(text: &str) -> Result<[u32; 2], String> {
+    let (least, most) = centrode::policy::COUNT_RANGE;
+    let count = |t: &str| t.trim().parse().ok().filter(|n| (least..=most).contains(&(*n as usize)));
+    let both = text.split_once(',').and_then(|(n, m)| count(n).zip(count(m)));
+    both.map(|(n, m): (u32, u32)| [n, m]).ok_or_else(|| {
+        format!("'{text}' are not two tooth counts from {least} to {most}; write them like 32,48")
+    })
 }
 
 /// A number of zero or more.

@@ -4,6 +4,7 @@
 mod contact;
 mod csv;
 mod dynamics;
+mod gap;
 mod index;
 mod motion;
 mod partition;
@@ -24,6 +25,7 @@ pub use dynamics::{
     Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, DynamicsSummary,
     Step, Stop, simulate,
 };
+pub use gap::{Gap, GapFinder};
 pub use motion::{MotionError, SampledMotion};
 pub use partition::{PartitionError, convex_partition};
 pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};

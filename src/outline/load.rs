@@ -161,7 +161,8 @@ fn read_outline(source: &str, options: &LoadOptions) -> Result<Outline, LoadErro
     }
 }
 
-fn read_file(source: &str) -> Result<Vec<u8>, LoadError> {
+/// The content of a file, of bounded length.
+pub(super) fn read_file(source: &str) -> Result<Vec<u8>, LoadError> {
     let path = || source.to_owned();
     let place = Path::new(source);
     if place.is_dir() {

@@ -12,6 +12,7 @@ mod simplify;
 mod smooth;
 mod svg;
 mod svg_guard;
+mod toothed;
 
 pub use load::{LoadError, LoadOptions, Shape, load};
 pub use normalize::{Similarity, normalized};
@@ -21,6 +22,7 @@ pub use silhouette::{ImageError, from_image};
 pub use simplify::simplify;
 pub use smooth::{Smoothing, resample, smooth};
 pub use svg::{SvgError, from_svg};
+pub use toothed::{GearRole, PairRecord, Thinned, Toothed, ToothedError, load_toothed};
 
 use crate::geometry::{self, Point};
 use crate::policy;

@@ -3,6 +3,7 @@
 use super::{Outline, OutlineError, repaired};
 use crate::geometry::Point;
 use crate::policy;
+use serde_json::Value;
 
 /// Why a list of points could not be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -64,10 +65,15 @@ pub enum PointsError {
 /// # Errors
 /// See [`PointsError`]; messages name the line.
 pub fn from_columns(text: &[u8]) -> Result<Outline, PointsError> {
+    Ok(repaired(columns(text, policy::POINT_FILE_BYTES)?)?)
+}
+
+/// The points of such columns as they stand, from at most `limit` bytes.
+pub(super) fn columns(text: &[u8], limit: usize) -> Result<Vec<Point>, PointsError> {
     let mut points = Vec::new();
     let mut columns = (0, 1);
     let mut header_allowed = true;
-    for (index, line) in plain_text(text)?.lines().enumerate() {
+    for (index, line) in plain_text(text, limit)?.lines().enumerate() {
         let data = line.split('#').next().unwrap_or_default().trim();
         if data.is_empty() {
             continue;
@@ -88,7 +94,7 @@ pub fn from_columns(text: &[u8]) -> Result<Outline, PointsError> {
         }
         header_allowed = false;
     }
-    Ok(repaired(points)?)
+    Ok(points)
 }
 
 fn split_fields(line: &str) -> Vec<String> {
@@ -108,25 +114,32 @@ fn split_fields(line: &str) -> Vec<String> {
 /// # Errors
 /// See [`PointsError`]; messages name the line or the point.
 pub fn from_json(text: &[u8]) -> Result<Outline, PointsError> {
-    use serde_json::Value;
-    let document: Value =
-        serde_json::from_str(plain_text(text)?).map_err(|e| PointsError::BadJson {
-            line: e.line(),
-            column: e.column(),
-            reason: e.to_string().split(" at line ").next().unwrap_or_default().to_owned(),
-        })?;
+    let document = json(text, policy::POINT_FILE_BYTES)?;
     let list = document.as_array().or_else(|| document.get("points")?.as_array());
+    Ok(repaired(list_of_points(list.ok_or(PointsError::NoList)?)?)?)
+}
+
+/// A JSON text of at most `limit` bytes.
+pub(super) fn json(text: &[u8], limit: usize) -> Result<Value, PointsError> {
+    serde_json::from_str(plain_text(text, limit)?).map_err(|e| PointsError::BadJson {
+        line: e.line(),
+        column: e.column(),
+        reason: e.to_string().split(" at line ").next().unwrap_or_default().to_owned(),
+    })
+}
+
+/// The points of a JSON list as they stand.
+pub(super) fn list_of_points(list: &[Value]) -> Result<Vec<Point>, PointsError> {
     let coordinate = |p: &Value, i: usize, name: &str| p.get(i).or(p.get(name))?.as_f64();
-    let points = list.ok_or(PointsError::NoList)?.iter().enumerate().map(|(i, p)| {
+    let points = list.iter().enumerate().map(|(i, p)| {
         let x = coordinate(p, 0, "x");
         let point = x.zip(coordinate(p, 1, "y")).map(|(x, y)| Point::new(x, y));
         point.ok_or(PointsError::BadPoint { number: i + 1 })
     });
-    Ok(repaired(points.collect::<Result<_, _>>()?)?)
+    points.collect()
 }
 
-fn plain_text(bytes: &[u8]) -> Result<&str, PointsError> {
-    let limit = policy::POINT_FILE_BYTES;
+fn plain_text(bytes: &[u8], limit: usize) -> Result<&str, PointsError> {
     if bytes.len() > limit {
         return Err(PointsError::TooLong { bytes: bytes.len(), limit });
     }

@@ -151,9 +151,9 @@ fn collect_filled<'a>(group: &'a usvg::Group, paths: &mut Vec<&'a usvg::Path>) {
 }
 
 /// One subpath, flattened; y still downwards.
-struct Contour {
-    points: Vec<Point>,
-    closed: bool,
+pub(super) struct Contour {
+    pub(super) points: Vec<Point>,
+    pub(super) closed: bool,
 }
 
 fn outline_of(paths: &[&usvg::Path], canvas: Point, tolerance: f64) -> Result<Outline, SvgError> {
@@ -263,7 +263,8 @@ fn covers(points: &[Point], canvas: Point) -> bool {
         && high.y >= canvas.y - slack.y
 }
 
-fn flatten(path: &usvg::Path, tolerance: f64) -> Vec<Contour> {
+/// The subpaths of a path, chords within `tolerance`, in the units of the canvas.
+pub(super) fn flatten(path: &usvg::Path, tolerance: f64) -> Vec<Contour> {
     let map = path.abs_transform();
     let at = |p: usvg::tiny_skia_path::Point| {
         let mut p = p;

@@ -1,0 +1,82 @@
+//! What cannot be checked.
+
+use super::motion::MotionFileError;
+use crate::meshing::{ContactError, DynamicsError};
+
+/// Why a pair cannot be checked. A pair that can be, and fails, is no error.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CheckError {
+    /// No centre distance.
+    #[error("the distance of the axes is not known; give --center-distance")]
+    NoCenterDistance,
+    /// A number that is not above zero.
+    #[error("the {name} is {value}; give a number above zero")]
+    NotPositive {
+        /// What it is.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// An axis beside its gear.
+    #[error(
+        "the {gear}'s axis ({x:.3}, {y:.3}) lies outside the gear; give one inside its outline"
+    )]
+    AxisOutside {
+        /// `driver` or `follower`.
+        gear: &'static str,
+        /// Where, mm.
+        x: f64,
+        /// Where, mm.
+        y: f64,
+    },
+    /// No hint where the axis is.
+    #[error(
+        "the {gear} has {holes} holes and the origin is outside it, so its axis is unknown; give --{gear}-axis x,y"
+    )]
+    NoAxis {
+        /// `driver` or `follower`.
+        gear: &'static str,
+        /// Holes in it.
+        holes: usize,
+    },
+    /// No regular teeth.
+    #[error("no regular teeth were found on the {gear}; give a toothed outline, or --teeth N,M")]
+    NoTeeth {
+        /// `driver` or `follower`.
+        gear: &'static str,
+    },
+    /// The gears are too far apart at every angle.
+    #[error("the gears never touch: {gap:.3} mm are left between them; bring the axes closer")]
+    NeverTouch {
+        /// What is left at least, mm.
+        gap: f64,
+    },
+    /// No angle of the follower at which the teeth interlock.
+    #[error(
+        "the outlines overlap from the start, whichever way the follower is turned; correct --center-distance or the outlines' scale"
+    )]
+    OverlapAtStart,
+    /// The motion is no motion.
+    #[error(transparent)]
+    Motion(#[from] MotionFileError),
+    /// The cycle is too long.
+    #[error(
+        "{driver} and {follower} teeth meet as before only after {turns} turns of the driver, more than {limit}; give --ratio or --motion"
+    )]
+    LongCycle {
+        /// Teeth of the driver.
+        driver: u32,
+        /// Teeth of the follower.
+        follower: u32,
+        /// Turns of the driver.
+        turns: u32,
+        /// Most that are checked.
+        limit: u32,
+    },
+    /// The contact analysis refuses.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// The rigid-body run refuses.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+}

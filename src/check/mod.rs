@@ -1,0 +1,367 @@
+//! Judges two finished gears of which nothing is known but their outlines: finds axes, teeth, phase
+//! and motion, then has [`crate::meshing`] look at them.
+
+mod axis;
+mod error;
+mod motion;
+mod pair;
+mod phase;
+mod teeth;
+mod trace;
+
+pub use axis::AxisSource;
+pub use error::CheckError;
+pub use motion::{MotionFileError, motion_from_columns};
+
+use crate::geometry::Point;
+use crate::meshing::{
+    ContactInput, ContactOptions, ContactSummary, Direction, Dynamics, DynamicsInput,
+    DynamicsOptions, Limits, Reason, Verdict, analyse, judge, simulate,
+};
+use crate::outline::{GearRole, PairRecord, Toothed};
+use crate::policy;
+use motion::Law;
+use pair::Pair;
+use std::f64::consts::TAU;
+use trace::Untraced;
+
+/// The motion a pair is checked against.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum MotionGiven {
+    /// That of the `design.json` if both gears come from the same one, else derived from contact.
+    #[default]
+    Unknown,
+    /// An even one: so many turns of the driver for one of the follower.
+    Ratio(f64),
+    /// Samples of driver and follower angle, radians, over whole turns of the driver.
+    Sampled {
+        /// Driver angles.
+        driver: Vec<f64>,
+        /// Follower angles.
+        follower: Vec<f64>,
+    },
+}
+
+/// Where the motion came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionSource {
+    /// A ratio was given.
+    Ratio,
+    /// Samples were given.
+    Samples,
+    /// The `design.json` of the pair.
+    Record,
+    /// Both gears are round: the ratio of their tooth counts.
+    Teeth,
+    /// The contact of the outlines.
+    Contact,
+}
+
+impl MotionSource {
+    /// A stable word for programs.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ratio => "ratio",
+            Self::Samples => "samples",
+            Self::Record => "record",
+            Self::Teeth => "teeth",
+            Self::Contact => "contact",
+        }
+    }
+}
+
+/// How a pair is checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CheckOptions {
+    /// Distance of the axes, mm; that of the `design.json` when left out.
+    pub center_distance: Option<f64>,
+    /// Axes of driver and follower in the frames of their files, mm; found when left out.
+    pub axes: [Option<Point>; 2],
+    /// Teeth of driver and follower; counted when left out.
+    pub teeth: Option<[u32; 2]>,
+    /// Turn of the follower's drawing at driver angle 0, radians clockwise; found when left out.
+    pub phase: Option<f64>,
+    /// The motion.
+    pub motion: MotionGiven,
+    /// How closely contact is looked at.
+    pub contact: ContactOptions,
+    /// Runs as rigid bodies, made when the contact analysis finds no fault. Their cycles are set by
+    /// [`policy::CHECK_CYCLES`].
+    pub runs: Vec<DynamicsOptions>,
+    /// Where a pair fails.
+    pub limits: Limits,
+}
+
+/// What was found. Lengths mm, angles radians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckReport {
+    /// The outcome.
+    pub verdict: Verdict,
+    /// Why it fails; empty unless it does.
+    pub faults: Vec<Reason>,
+    /// What deserves attention.
+    pub warnings: Vec<Reason>,
+    /// Axes of driver and follower in the frames of their files.
+    pub axes: [(Point, AxisSource); 2],
+    /// Distance of the axes.
+    pub center_distance: f64,
+    /// Teeth of driver and follower.
+    pub teeth: [u32; 2],
+    /// Module by the spacing of the teeth.
+    pub module: f64,
+    /// Turn of the follower's drawing at driver angle 0, clockwise.
+    pub phase: f64,
+    /// Whether the phase was given, or follows from the record.
+    pub phase_given: bool,
+    /// Turns of the driver for one of the follower.
+    pub ratio: f64,
+    /// Where the motion came from.
+    pub motion: MotionSource,
+    /// Driver angle over which the pair was checked.
+    pub driver_cycle: f64,
+    /// psi at even driver angles over the cycle, first and last included; empty without a motion.
+    pub psi: Vec<f64>,
+    /// Figures of the contact analysis; none when no motion could be found.
+    pub contact: Option<ContactSummary>,
+    /// The runs that were made.
+    pub runs: Vec<Dynamics>,
+    /// What a reader should know, one sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Checks a pair.
+///
+/// Bounded in work: outlines by [`policy::OUTLINE_VERTICES_KEPT`] vertices, the cycle by
+/// [`policy::CHECK_TURNS`] driver turns, runs by [`policy::MOST_STEPS`] steps.
+///
+/// # Errors
+/// See [`CheckError`]: input that is no pair of gears. A pair that does not mesh is no error.
+pub fn check(
+    driver: &Toothed,
+    follower: &Toothed,
+    options: &CheckOptions,
+) -> Result<CheckReport, CheckError> {
+    let mut notes = Vec::new();
+    for (gear, role) in [(driver, GearRole::Driver), (follower, GearRole::Follower)] {
+        if let Some(t) = gear.thinned {
+            notes.push(format!(
+                "the {} was thinned from {} to {} vertices, within {:.1e} mm",
+                role.name(),
+                t.from,
+                t.to,
+                t.tolerance
+            ));
+        }
+    }
+    let record = common_record(driver, follower);
+    let center_distance = options
+        .center_distance
+        .or(record.map(|r| r.center_distance))
+        .ok_or(CheckError::NoCenterDistance)?;
+    if !(center_distance.is_finite() && center_distance > 0.0) {
+        return Err(CheckError::NotPositive { name: "centre distance", value: center_distance });
+    }
+    let axes = [
+        axis::axis(driver, GearRole::Driver, options.axes[0])?,
+        axis::axis(follower, GearRole::Follower, options.axes[1])?,
+    ];
+    let pair = set_up([driver, follower], &axes, center_distance, record, options.teeth)?;
+    let law = match motion::law(&pair, record, &options.motion)? {
+        Some(law) => law,
+        None => match derived(&pair, options.phase) {
+            Ok(law) => law,
+            Err(Untraced::NoStart) => return Err(CheckError::OverlapAtStart),
+            Err(reason) => return Ok(unmoved(&pair, axes, reason, options.phase, notes)),
+        },
+    };
+    let given = options.phase.or(law.phase.filter(|_| law.source == MotionSource::Record));
+    let phase = match given.or(law.phase) {
+        Some(phase) => phase,
+        None => {
+            phase::for_motion(&pair, &|a| law.psi(a), law.cycle)
+                .ok_or(CheckError::OverlapAtStart)?
+                .phase
+        }
+    };
+    judged(&pair, axes, &law, (phase, given.is_some()), options, notes)
+}
+
+/// What both gears' files tell, if they are the same file.
+fn common_record<'a>(driver: &'a Toothed, follower: &'a Toothed) -> Option<&'a PairRecord> {
+    driver.record.as_ref().filter(|d| follower.record.as_ref() == Some(d))
+}
+
+fn set_up(
+    gears: [&Toothed; 2],
+    axes: &[(Point, AxisSource); 2],
+    center_distance: f64,
+    record: Option<&PairRecord>,
+    teeth: Option<[u32; 2]>,
+) -> Result<Pair, CheckError> {
+    let centred = |i: usize| -> Vec<Point> {
+        gears[i].outline.points().iter().map(|p| p - axes[i].0.coords).collect()
+    };
+    let outlines = [centred(0), centred(1)];
+    let reach = |o: &[Point]| o.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+    let gap = center_distance - reach(&outlines[0]) - reach(&outlines[1]);
+    if gap >= 0.0 {
+        return Err(CheckError::NeverTouch { gap });
+    }
+    let known = teeth.or(record.and_then(|r| r.teeth));
+    let counted = |i: usize| {
+        let gear = [GearRole::Driver, GearRole::Follower][i].name();
+        teeth::teeth(&outlines[i], known.map(|t| t[i])).ok_or(CheckError::NoTeeth { gear })
+    };
+    let (first, second) = rayon::join(|| counted(0), || counted(1));
+    let [driver, follower] = outlines;
+    Ok(Pair::new(driver, follower, center_distance, [first?, second?]))
+}
+
+/// The law that contact tells; round gears turn evenly.
+fn derived(pair: &Pair, phase: Option<f64>) -> Result<Law, Untraced> {
+    if pair.is_round() {
+        let turns = pair.cycle_turns().min(pair.ratio().max(1.0).ceil() as u32);
+        return Ok(Law::even(pair.ratio(), TAU * f64::from(turns), MotionSource::Teeth));
+    }
+    let traced = trace::traced(pair, phase)?;
+    Ok(Law::sampled(traced.motion, 1, Some(traced.phase), MotionSource::Contact))
+}
+
+fn judged(
+    pair: &Pair,
+    axes: [(Point, AxisSource); 2],
+    law: &Law,
+    (phase, phase_given): (f64, bool),
+    options: &CheckOptions,
+    mut notes: Vec<String>,
+) -> Result<CheckReport, CheckError> {
+    let follower: Vec<Point> =
+        pair.follower.iter().map(|&p| crate::geometry::rotate(p, -phase)).collect();
+    let (psi, slope) = (|a: f64| law.psi(a), |a: f64| law.derivative(a));
+    let input = ContactInput {
+        driver: &pair.driver,
+        follower: &follower,
+        center_distance: pair.center_distance,
+        module: pair.module,
+        motion: &psi,
+        motion_derivative: &slope,
+        driver_cycle: law.cycle,
+    };
+    let analysis = analyse(&input, &options.contact)?;
+    let teeth = [pair.teeth[0].count, pair.teeth[1].count];
+    let swing = swing(&analysis.summary, &options.limits);
+    let sound = judge(analysis.clone(), Vec::new(), pair.module, teeth[0], &options.limits)
+        .faults
+        .is_empty()
+        && !matches!(swing, Some((_, true)));
+    let mut runs = Vec::new();
+    if sound {
+        for run in &options.runs {
+            let run = DynamicsOptions { cycles: policy::CHECK_CYCLES, ..*run };
+            runs.push(simulate(&DynamicsInput { contact: input, driver_teeth: teeth[0] }, &run)?);
+        }
+    } else if !options.runs.is_empty() {
+        notes.push("no rigid-body run was made, for contact alone shows the fault".to_owned());
+    }
+    if options.motion != MotionGiven::Unknown && (pair.ratio() - law.ratio()).abs() > 1e-3 {
+        notes.push(format!(
+            "the teeth counted ({} and {}) give a ratio of {:.4}, the motion {:.4}",
+            teeth[0],
+            teeth[1],
+            pair.ratio(),
+            law.ratio()
+        ));
+    }
+    let mut report = judge(analysis, runs, pair.module, teeth[0], &options.limits);
+    if let Some((reason, fails)) = swing {
+        let known = report.faults.iter().chain(&report.warnings).any(|r| r.name() == reason.name());
+        if fails && !report.faults.iter().any(|r| r.name() == reason.name()) {
+            report.warnings.retain(|r| r.name() != reason.name());
+            report.faults.push(reason);
+        } else if !known {
+            report.warnings.push(reason);
+        }
+    }
+    let samples = policy::CHECK_SAMPLES;
+    let at = |i: usize| law.psi(law.cycle * i as f64 / samples as f64) - law.psi(0.0);
+    Ok(CheckReport {
+        verdict: verdict(&report.faults, &report.warnings),
+        faults: report.faults,
+        warnings: report.warnings,
+        axes,
+        center_distance: pair.center_distance,
+        teeth,
+        module: pair.module,
+        phase,
+        phase_given,
+        ratio: law.ratio(),
+        motion: law.source,
+        driver_cycle: law.cycle,
+        psi: (0..=samples).map(at).collect(),
+        contact: Some(report.contact.summary),
+        runs: report.runs,
+        notes,
+    })
+}
+
+fn verdict(faults: &[Reason], warnings: &[Reason]) -> Verdict {
+    match (faults.is_empty(), warnings.is_empty()) {
+        (false, _) => Verdict::DoesNotMesh,
+        (true, false) => Verdict::MeshesWithWarnings,
+        (true, true) => Verdict::Meshes,
+    }
+}
+
+/// The swing that the contact analysis shows, and whether it fails.
+fn swing(summary: &ContactSummary, limits: &Limits) -> Option<(Reason, bool)> {
+    let pitches = summary.transmission_error_pitch?.peak_to_peak;
+    let angle = summary.transmission_error?.peak_to_peak;
+    let fails = pitches > limits.swing;
+    let limit = if fails { limits.swing } else { limits.noted_swing };
+    (pitches > limits.noted_swing).then_some((Reason::Swing { angle, pitches, limit }, fails))
+}
+
+/// A pair whose contact forces no motion that could be judged further.
+fn unmoved(
+    pair: &Pair,
+    axes: [(Point, AxisSource); 2],
+    reason: Untraced,
+    phase: Option<f64>,
+    mut notes: Vec<String>,
+) -> CheckReport {
+    let fault = match reason {
+        Untraced::NoStart => Reason::NoContact,
+        Untraced::Stopped { at } => Reason::Jam { at },
+        Untraced::NotClosed { pitches } => Reason::Slipped { pitches },
+    };
+    notes.push("no motion could be derived from contact; --motion or --ratio gives one".to_owned());
+    CheckReport {
+        verdict: Verdict::DoesNotMesh,
+        faults: vec![fault],
+        warnings: Vec::new(),
+        axes,
+        center_distance: pair.center_distance,
+        teeth: [pair.teeth[0].count, pair.teeth[1].count],
+        module: pair.module,
+        phase: phase.unwrap_or(0.0),
+        phase_given: phase.is_some(),
+        ratio: pair.ratio(),
+        motion: MotionSource::Contact,
+        driver_cycle: TAU * f64::from(pair.cycle_turns()),
+        psi: Vec::new(),
+        contact: None,
+        runs: Vec::new(),
+        notes,
+    }
+}
+
+/// The runs that are made by default: one forward, led.
+#[must_use]
+pub fn default_runs(options: &DynamicsOptions, both_ways: bool) -> Vec<DynamicsOptions> {
+    let backward = DynamicsOptions { direction: Direction::Backward, ..*options };
+    if both_ways { vec![*options, backward] } else { vec![*options] }
+}
+
+#[cfg(test)]
+mod tests;

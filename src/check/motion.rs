@@ -1,0 +1,179 @@
+//! The motion a pair is held against.
+
+use super::pair::Pair;
+use super::{CheckError, MotionGiven, MotionSource};
+use crate::meshing::{MotionError, SampledMotion};
+use crate::outline::PairRecord;
+use crate::policy;
+use std::f64::consts::TAU;
+
+/// Why a list of angles is no motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MotionFileError {
+    /// Not text, or a line that is not two numbers.
+    #[error(
+        "line {line} of the motion is not two finite numbers; write driver and follower angle in radians there"
+    )]
+    BadLine {
+        /// Number of the line, from 1.
+        line: usize,
+    },
+    /// Too few samples, or one that does not increase.
+    #[error(transparent)]
+    Samples(#[from] MotionError),
+    /// Part of a turn.
+    #[error(
+        "the motion covers {turns:.4} turns of the {gear}; give whole turns of the driver that close the follower's too, angles in radians"
+    )]
+    NotWhole {
+        /// `driver` or `follower`.
+        gear: &'static str,
+        /// Turns covered.
+        turns: f64,
+    },
+}
+
+/// Driver and follower angles (radians) from two columns: separated by commas, semicolons, tabs or
+/// blanks; a first line without numbers is a heading, what follows `#` is skipped.
+///
+/// # Errors
+/// [`MotionFileError::BadLine`].
+pub fn motion_from_columns(text: &str) -> Result<(Vec<f64>, Vec<f64>), MotionFileError> {
+    let (mut driver, mut follower) = (Vec::new(), Vec::new());
+    let mut heading_allowed = true;
+    for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+        let data = line.split('#').next().unwrap_or_default().trim();
+        if data.is_empty() {
+            continue;
+        }
+        let fields: Vec<Option<f64>> = data
+            .split([',', ';', '\t', ' '])
+            .filter(|f| !f.is_empty())
+            .map(|f| f.parse().ok().filter(|v: &f64| v.is_finite()))
+            .collect();
+        match fields[..] {
+            [Some(d), Some(f), ..] => {
+                driver.push(d);
+                follower.push(f);
+            }
+            _ if heading_allowed && data.starts_with(|c: char| c.is_alphabetic() || c == '"') => {}
+            _ => return Err(MotionFileError::BadLine { line: index + 1 }),
+        }
+        heading_allowed = false;
+    }
+    Ok((driver, follower))
+}
+
+/// psi, and over which driver angle it is judged.
+#[derive(Clone, Debug)]
+pub(super) struct Law {
+    kind: Kind,
+    /// Driver angle over which the pair is judged, radians.
+    pub(super) cycle: f64,
+    /// The follower's phase, if it comes with the motion.
+    pub(super) phase: Option<f64>,
+    pub(super) source: MotionSource,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
+    Even(f64),
+    Sampled(SampledMotion),
+}
+
+impl Law {
+    /// psi = phi / ratio.
+    pub(super) fn even(ratio: f64, cycle: f64, source: MotionSource) -> Self {
+        Self { kind: Kind::Even(ratio), cycle, phase: None, source }
+    }
+
+    /// `repeats` of the samples make a whole cycle.
+    pub(super) fn sampled(
+        motion: SampledMotion,
+        repeats: u32,
+        phase: Option<f64>,
+        source: MotionSource,
+    ) -> Self {
+        let cycle = motion.cycle() * f64::from(repeats);
+        Self { kind: Kind::Sampled(motion), cycle, phase, source }
+    }
+
+    pub(super) fn psi(&self, driver_angle: f64) -> f64 {
+        match &self.kind {
+            Kind::Even(ratio) => driver_angle / ratio,
+            Kind::Sampled(motion) => motion.psi(driver_angle),
+        }
+    }
+
+    pub(super) fn derivative(&self, driver_angle: f64) -> f64 {
+        match &self.kind {
+            Kind::Even(ratio) => 1.0 / ratio,
+            Kind::Sampled(motion) => motion.derivative(driver_angle),
+        }
+    }
+
+    /// Turns of the driver for one of the follower.
+    pub(super) fn ratio(&self) -> f64 {
+        match &self.kind {
+            Kind::Even(ratio) => *ratio,
+            Kind::Sampled(_) => self.cycle / (self.psi(self.cycle) - self.psi(0.0)),
+        }
+    }
+}
+
+/// The law that is given or recorded; `None` when contact has to tell.
+pub(super) fn law(
+    pair: &Pair,
+    record: Option<&PairRecord>,
+    given: &MotionGiven,
+) -> Result<Option<Law>, CheckError> {
+    match (given, record) {
+        (MotionGiven::Ratio(ratio), _) => {
+            if !(ratio.is_finite() && *ratio > 0.0) {
+                return Err(CheckError::NotPositive { name: "ratio", value: *ratio });
+            }
+            let turns = ratio.max(1.0).ceil().min(f64::from(policy::CHECK_TURNS));
+            Ok(Some(Law::even(*ratio, TAU * turns, MotionSource::Ratio)))
+        }
+        (MotionGiven::Sampled { driver, follower }, _) => {
+            let motion = SampledMotion::new(driver, follower).map_err(MotionFileError::Samples)?;
+            let repeats = repeats(driver, follower)?;
+            Ok(Some(Law::sampled(motion, repeats, None, MotionSource::Samples)))
+        }
+        (MotionGiven::Unknown, Some(record)) => {
+            let (driver, follower) = (&record.driver_angle, &record.follower_angle);
+            let motion = SampledMotion::new(driver, follower).map_err(MotionFileError::Samples)?;
+            let repeats = repeats(driver, follower)?;
+            Ok(Some(Law::sampled(motion, repeats, Some(0.0), MotionSource::Record)))
+        }
+        (MotionGiven::Unknown, None) => {
+            let turns = pair.cycle_turns();
+            if !pair.is_round() && turns > policy::CHECK_TURNS {
+                return Err(CheckError::LongCycle {
+                    driver: pair.teeth[0].count,
+                    follower: pair.teeth[1].count,
+                    turns,
+                    limit: policy::CHECK_TURNS,
+                });
+            }
+            Ok(None)
+        }
+    }
+}
+
+/// How often samples have to be repeated until the follower is back.
+fn repeats(driver: &[f64], follower: &[f64]) -> Result<u32, MotionFileError> {
+    let turned = |angles: &[f64]| match (angles.first(), angles.last()) {
+        (Some(first), Some(last)) => (last - first) / TAU,
+        _ => 0.0,
+    };
+    let off = |turns: f64| (turns - turns.round()).abs() * TAU;
+    let (d, f) = (turned(driver), turned(follower));
+    if off(d) > policy::MOTION_CLOSES || d < 0.5 {
+        return Err(MotionFileError::NotWhole { gear: "driver", turns: d });
+    }
+    let most = (f64::from(policy::CHECK_TURNS) / d.round()).max(1.0) as u32;
+    (1..=most)
+        .find(|n| off(f * f64::from(*n)) <= policy::MOTION_CLOSES * f64::from(*n))
+        .ok_or(MotionFileError::NotWhole { gear: "follower", turns: f })
+}

@@ -1,0 +1,244 @@
+//! `centrode check`: a verdict on any two gears.
+
+use std::io::Write;
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::Context;
+use centrode::check::{
+    CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns,
+};
+use centrode::meshing::{DynamicsOptions, Reason, Verdict};
+use centrode::outline::{GearRole, load_toothed};
+use serde::Serialize;
+
+use super::Outcome;
+use super::args::CheckArgs;
+use super::progress::Progress;
+
+pub(crate) fn run(args: &CheckArgs) -> anyhow::Result<Outcome> {
+    let start = Instant::now();
+    let motion = motion(args)?;
+    let defaults = DynamicsOptions::default();
+    let run = DynamicsOptions {
+        load: args.load,
+        rpm: args.rpm,
+        friction: args.friction,
+        thickness: args.thickness,
+        ..defaults
+    };
+    let options = CheckOptions {
+        center_distance: args.center_distance,
+        axes: [args.driver_axis, args.follower_axis],
+        teeth: args.teeth,
+        phase: args.phase,
+        motion,
+        runs: if args.no_simulate { Vec::new() } else { default_runs(&run, args.both) },
+        ..CheckOptions::default()
+    };
+    let progress = Progress::new();
+    progress.doing("reading the gears");
+    let driver = load_toothed(&args.driver, GearRole::Driver)?;
+    let follower = load_toothed(&args.follower, GearRole::Follower)?;
+    progress.doing("checking the pair");
+    let report = check(&driver, &follower, &options)?;
+    progress.done();
+    let text =
+        if args.json { json(&report)? } else { human(&report, start.elapsed().as_secs_f64()) };
+    std::io::stdout()
+        .lock()
+        .write_all(text.as_bytes())
+        .context("cannot write to standard output")?;
+    Ok(if report.verdict == Verdict::DoesNotMesh { Outcome::NotSound } else { Outcome::Good })
+}
+
+fn motion(args: &CheckArgs) -> anyhow::Result<MotionGiven> {
+    if let Some(ratio) = args.ratio {
+        return Ok(MotionGiven::Ratio(ratio));
+    }
+    let Some(path) = &args.motion else { return Ok(MotionGiven::Unknown) };
+    let (driver, follower) = read_motion(path).with_context(|| path.display().to_string())?;
+    Ok(MotionGiven::Sampled { driver, follower })
+}
+
+fn read_motion(path: &Path) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
+    let length =
+        std::fs::metadata(path).context("the motion cannot be read; check the path")?.len();
+    let limit = centrode::policy::INPUT_BYTES;
+    anyhow::ensure!(length <= limit, "the motion has more than {limit} bytes; give fewer samples");
+    let text = std::fs::read_to_string(path)
+        .context("the motion cannot be read; give a text file of two columns")?;
+    Ok(motion_from_columns(&text)?)
+}
+
+fn human(report: &CheckReport, seconds: f64) -> String {
+    let mut lines = vec![report.verdict.label().to_owned()];
+    for fault in &report.faults {
+        lines.push(format!("  fault: {fault}"));
+    }
+    for warning in &report.warnings {
+        lines.push(format!("  warning: {warning}"));
+    }
+    lines.push(format!(
+        "teeth {} and {}, module {:.3} mm, axes {:.3} mm apart ({} and {})",
+        report.teeth[0],
+        report.teeth[1],
+        report.module,
+        report.center_distance,
+        report.axes[0].1.name(),
+        report.axes[1].1.name()
+    ));
+    lines.push(format!(
+        "ratio {:.4} (motion from {}), follower turned {:.3} degrees clockwise{}",
+        report.ratio,
+        report.motion.name(),
+        report.phase.to_degrees(),
+        if report.phase_given { "" } else { " (found)" }
+    ));
+    if let Some(contact) = &report.contact {
+        let swing = contact.transmission_error_pitch.map_or(f64::NAN, |e| 100.0 * e.peak_to_peak);
+        let backlash = contact.min_backlash.map_or(f64::NAN, |w| w.value.to_degrees());
+        let overlap = contact.max_interference.map_or(0.0, |w| w.value);
+        lines.push(format!(
+            "contact: {:.2} pairs of teeth, swing {swing:.2} % of a pitch, backlash at least {backlash:.3} degrees, overlap {overlap:.4} mm",
+            contact.contact_ratio
+        ));
+    }
+    for run in &report.runs {
+        let s = &run.summary;
+        lines.push(format!(
+            "run {:?}: {} steps, {:.4} degrees RMS from contact, {:.0} % of the work arrives",
+            run.options.direction,
+            run.steps.len(),
+            s.tracking_rms.to_degrees(),
+            100.0 * s.efficiency
+        ));
+    }
+    for note in &report.notes {
+        lines.push(format!("note: {note}"));
+    }
+    lines.push(format!("{seconds:.1} s"));
+    lines.join("\n") + "\n"
+}
+
+/// What `--json` prints; keys are kept from version to version. Lengths mm, angles radians.
+#[derive(Debug, Serialize)]
+struct Record<'a> {
+    verdict: &'static str,
+    meshes: bool,
+    faults: Vec<ReasonRecord>,
+    warnings: Vec<ReasonRecord>,
+    teeth: [u32; 2],
+    module: f64,
+    center_distance: f64,
+    driver_axis: [f64; 2],
+    follower_axis: [f64; 2],
+    axis_source: [&'static str; 2],
+    phase: f64,
+    phase_given: bool,
+    ratio: f64,
+    motion_source: &'static str,
+    driver_cycle: f64,
+    driver_angle: Vec<f64>,
+    follower_angle: &'a [f64],
+    contact: Option<ContactRecord>,
+    runs: Vec<RunRecord>,
+    notes: &'a [String],
+}
+
+#[derive(Debug, Serialize)]
+struct ReasonRecord {
+    name: &'static str,
+    driver_angle: Option<f64>,
+    sentence: String,
+}
+
+#[derive(Debug, Serialize)]
+struct ContactRecord {
+    contact_ratio: f64,
+    transmission_error_peak_to_peak: Option<f64>,
+    transmission_error_peak_to_peak_pitch: Option<f64>,
+    min_backlash: Option<f64>,
+    max_backlash: Option<f64>,
+    lost_angle: f64,
+    max_interference: f64,
+    max_pressure_angle: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct RunRecord {
+    direction: String,
+    steps: usize,
+    stopped: bool,
+    tracking_rms: f64,
+    tracking_worst: Option<f64>,
+    swing_pitch: f64,
+    torque_rms: f64,
+    penetration: Option<f64>,
+    net_turn_pitch: f64,
+    efficiency: f64,
+}
+
+fn json(report: &CheckReport) -> anyhow::Result<String> {
+    let reasons = |list: &[Reason]| {
+        list.iter()
+            .map(|r| ReasonRecord {
+                name: r.name(),
+                driver_angle: r.driver_angle(),
+                sentence: r.to_string(),
+            })
+            .collect()
+    };
+    let intervals = report.psi.len().saturating_sub(1).max(1) as f64;
+    let record = Record {
+        verdict: report.verdict.label(),
+        meshes: report.verdict != Verdict::DoesNotMesh,
+        faults: reasons(&report.faults),
+        warnings: reasons(&report.warnings),
+        teeth: report.teeth,
+        module: report.module,
+        center_distance: report.center_distance,
+        driver_axis: [report.axes[0].0.x, report.axes[0].0.y],
+        follower_axis: [report.axes[1].0.x, report.axes[1].0.y],
+        axis_source: [report.axes[0].1.name(), report.axes[1].1.name()],
+        phase: report.phase,
+        phase_given: report.phase_given,
+        ratio: report.ratio,
+        motion_source: report.motion.name(),
+        driver_cycle: report.driver_cycle,
+        driver_angle: (0..report.psi.len())
+            .map(|i| report.driver_cycle * i as f64 / intervals)
+            .collect(),
+        follower_angle: &report.psi,
+        contact: report.contact.as_ref().map(|c| ContactRecord {
+            contact_ratio: c.contact_ratio,
+            transmission_error_peak_to_peak: c.transmission_error.map(|e| e.peak_to_peak),
+            transmission_error_peak_to_peak_pitch: c
+                .transmission_error_pitch
+                .map(|e| e.peak_to_peak),
+            min_backlash: c.min_backlash.map(|w| w.value),
+            max_backlash: c.max_backlash.map(|w| w.value),
+            lost_angle: c.lost_angle,
+            max_interference: c.max_interference.map_or(0.0, |w| w.value),
+            max_pressure_angle: c.max_pressure_angle.map(|w| w.value),
+        }),
+        runs: report
+            .runs
+            .iter()
+            .map(|run| RunRecord {
+                direction: format!("{:?}", run.options.direction).to_lowercase(),
+                steps: run.steps.len(),
+                stopped: run.stopped.is_some(),
+                tracking_rms: run.summary.tracking_rms,
+                tracking_worst: run.summary.tracking_worst.map(|w| w.value),
+                swing_pitch: run.summary.swing,
+                torque_rms: run.summary.torque_rms,
+                penetration: run.summary.penetration.map(|w| w.value),
+                net_turn_pitch: run.summary.net_turn,
+                efficiency: run.summary.efficiency,
+            })
+            .collect(),
+        notes: &report.notes,
+    };
+    Ok(serde_json::to_string(&record)? + "\n")
+}
