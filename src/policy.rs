@@ -544,7 +544,10 @@ pub const MOTOR_PATIENCE: f64 = 1.5;
 /// Teeth over which torque is averaged; single steps have spikes where facets meet.
 pub const TORQUE_WINDOW_TEETH: f64 = 0.25;
 /// Places a tooth where the exact contact angle is worked out; between them it runs straight.
-pub const CONTACT_ANGLES_PER_TOOTH: u32 = 24;
+pub const CONTACT_ANGLES_PER_TOOTH: u32 = 16;
+/// How far ahead of the follower its exact contact is looked for, radians: more than it can be pressed
+/// into its mate, less than any backlash.
+pub const CONTACT_LEAD: f64 = 2e-4;
 /// Corrective speed of overlapping contacts, world lengths per radian of driver turn: a bad
 /// contact shall not throw the follower.
 pub const CORRECTIVE_SPEED: f64 = 3.0;

@@ -462,26 +462,31 @@ fn averaged(values: &[f64], half: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The exact contact at even places over one cycle, run straight between them.
+/// The exact contact nearest to where the run has the follower, at even places; between them the
+/// distance from it runs straight.
 fn contact_angles(
     input: &DynamicsInput<'_>,
     options: &DynamicsOptions,
     steps: &mut [Step],
 ) -> Result<(), DynamicsError> {
-    let pair = &input.contact;
-    let fine = f64::from(options.steps_per_tooth.min(policy::CONTACT_ANGLES_PER_TOOTH));
-    let places = pair.driver_cycle / TAU * f64::from(input.driver_teeth) * fine;
-    let count = (places.round().max(1.0) as usize).min(policy::MOST_STEPS);
-    let h = pair.driver_cycle / count as f64;
-    let angles: Vec<f64> = (0..count).map(|i| i as f64 * h).collect();
-    let poses = poses_at(pair, &ContactOptions::default(), &angles)?;
-    let play = |pose: &ContactPose| (!pose.lost).then_some(pose.play_behind);
-    for step in steps {
-        let place = step.driver_angle / h;
-        let i = (place.floor() as i64).rem_euclid(count as i64) as usize;
-        let (a, b) = (play(&poses[i]), play(&poses[(i + 1) % count]));
+    let stride = (options.steps_per_tooth / policy::CONTACT_ANGLES_PER_TOOTH).max(1) as usize;
+    let places: Vec<[f64; 2]> =
+        steps.iter().step_by(stride).map(|s| [s.driver_angle, s.follower_angle]).collect();
+    // Looked for from a little ahead of the follower, so that it is free there.
+    let led = |angle: f64| {
+        let i = places.partition_point(|p| p[0] < angle).min(places.len() - 1);
+        places[i][1] + policy::CONTACT_LEAD
+    };
+    let pair = ContactInput { motion: &led, ..input.contact };
+    let angles: Vec<f64> = places.iter().map(|p| p[0]).collect();
+    let found = poses_at(&pair, &ContactOptions::default(), &angles)?;
+    let distance =
+        |pose: &ContactPose| (!pose.lost).then_some(pose.play_behind - policy::CONTACT_LEAD);
+    for (i, step) in steps.iter_mut().enumerate() {
+        let (k, rest) = (i / stride, (i % stride) as f64 / stride as f64);
+        let (a, b) = (distance(&found[k]), distance(&found[(k + 1).min(found.len() - 1)]));
         step.contact_angle =
-            a.zip(b).map(|(a, b)| step.psi - a - (b - a) * (place - place.floor()));
+            a.zip(b).map(|(a, b)| step.follower_angle - a - (b - a) * rest);
     }
     Ok(())
 }
