@@ -580,3 +580,31 @@ pub const WORST_LOST_ARC: f64 = 0.1;
 pub const WORST_OVERLAP: f64 = 0.01;
 /// Share of the driver's work that must reach the load before a warning.
 pub const NOTED_EFFICIENCY: f64 = 0.6;
+
+// ---- Curves of exported outlines (`geometry::curves`) and CAD formats -------------------------
+
+/// Greatest distance between an exported curve and the vertices of the outline it stands for, mm: a tenth of
+/// what a good laser or printer can tell apart.
+pub const EXPORT_TOLERANCE: f64 = 0.002;
+/// Smallest tolerance that may be asked for, mm; below it rounding of six written decimals shows.
+pub const LEAST_EXPORT_TOLERANCE: f64 = 1e-5;
+/// Vertices that turn by more than this (radians, 17 degrees) are true corners; sampled curves, also
+/// those that clearance has rounded ([`INSET_ROUND_FROM`]), turn less.
+pub const CORNER_TURN: f64 = 0.3;
+/// An edge of a drawn hole this many times longer than both its neighbours is straight as drawn.
+pub const STRAIGHT_EDGE_RATIO: f64 = 4.0;
+/// Edges shorter than this share of the tolerance carry no direction worth following.
+pub const CURVE_SHORTEST: f64 = 0.25;
+/// Share of the tolerance that the smooth curve under the arcs may use up; the arcs get the rest.
+pub const CURVE_SHARE: f64 = 0.5;
+/// Turn of one cubic span before fitting, radians: a cubic follows 45 degrees of arc to 4e-6 of its radius.
+pub const CUBIC_TURN: f64 = 0.8;
+/// Weight of bending against distance in a fit: decides tangents where data does not, and moves a
+/// curve by less than a nanometre elsewhere.
+pub const CUBIC_STIFFNESS: f64 = 1e-7;
+/// Rounds of splitting spans that miss the tolerance; each halves them.
+pub const CUBIC_ROUNDS: usize = 12;
+/// Sagitta below which an arc is written as a straight line, mm.
+pub const STRAIGHT_SAGITTA: f64 = 1e-6;
+/// How evenly the corners of a regular polygon must lie on a circle to be a round hole, relative.
+pub const ROUND_HOLE_EVENNESS: f64 = 1e-9;
