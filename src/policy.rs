@@ -594,7 +594,10 @@ pub const CORNER_TURN: f64 = 0.3;
 /// An edge of a drawn hole this many times longer than both its neighbours is straight as drawn.
 pub const STRAIGHT_EDGE_RATIO: f64 = 4.0;
 /// Edges shorter than this share of the tolerance carry no direction worth following.
-pub const CURVE_SHORTEST: f64 = 0.25;
+pub const CURVE_SHORTEST: f64 = 1.0;
+/// A vertex at which the outline turns back by more than this (radians, 149 degrees) onto itself within the
+/// tolerance is a barb: offsets leave such folds without width, and every program that cuts trips over them.
+pub const BARB_TURN: f64 = 2.6;
 /// Share of the tolerance that the smooth curve under the arcs may use up; the arcs get the rest.
 pub const CURVE_SHARE: f64 = 0.5;
 /// Turn of one cubic span before fitting, radians: a cubic follows 45 degrees of arc to 4e-6 of its radius.

@@ -107,11 +107,8 @@ mod tests {
 
     #[test]
     fn a_quarter_circle_is_one() {
-        let arc = Arc {
-            from: Point::new(2.0, 0.0),
-            to: Point::new(0.0, 2.0),
-            bulge: (PI / 8.0).tan(),
-        };
+        let arc =
+            Arc { from: Point::new(2.0, 0.0), to: Point::new(0.0, 2.0), bulge: (PI / 8.0).tan() };
         assert!((arc.radius() - 2.0).abs() < 1e-12 && arc.center().coords.norm() < 1e-12);
         let (sin, cos) = (PI / 8.0).sin_cos();
         assert!((arc.at(0.25) - Point::new(2.0 * cos, 2.0 * sin)).norm() < 1e-12);

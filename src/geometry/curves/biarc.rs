@@ -58,9 +58,10 @@ pub(super) fn arcs_along(path: &CubicPath, samples: &Samples, tolerance: f64) ->
     let mut arcs = Vec::new();
     let mut i = 0;
     while i < last {
-        // The next vertex is taken whatever comes: the caller measures the whole.
         let next = i + 1;
-        let mut best = (next, biarc(at[i].0, at[i].1, at[next].0, at[next].1));
+        let tame = |pair: &[Arc; 2]| pair.iter().all(|a| a.angle().abs() < policy::CUBIC_TURN);
+        let single = biarc(at[i].0, at[i].1, at[next].0, at[next].1).filter(tame);
+        let mut best = (next, single);
         let mut step = 2;
         let mut beyond = last + 1;
         while i + step <= last {
@@ -83,6 +84,7 @@ pub(super) fn arcs_along(path: &CubicPath, samples: &Samples, tolerance: f64) ->
         }
         match best.1 {
             Some(pair) => arcs.extend(pair),
+            // Tangents that no pair of arcs can serve: a speck of the outline, crossed straight.
             None => arcs.push(Arc::line(at[i].0, at[best.0].0)),
         }
         i = best.0;
@@ -109,7 +111,8 @@ mod tests {
 
     #[test]
     fn tangents_along_the_chord_give_lines() {
-        let [a, b] = biarc(Point::origin(), Vector::x(), Point::new(2.0, 0.0), Vector::x()).unwrap();
+        let [a, b] =
+            biarc(Point::origin(), Vector::x(), Point::new(2.0, 0.0), Vector::x()).unwrap();
         assert_eq!((a.bulge, b.bulge), (0.0, 0.0));
         assert_eq!(a.to, Point::new(1.0, 0.0));
         assert!(biarc(Point::origin(), -Vector::x(), Point::new(2.0, 0.0), -Vector::x()).is_none());

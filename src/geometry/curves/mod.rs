@@ -1,7 +1,7 @@
 //! The smooth curves that a sampled outline stands for: corners, lines, arcs and cubic splines.
 //!
 //! Vertices of an outline lie on its true curve; its chords cut corners by up to their bow. A traced curve
-//! passes every vertex within the tolerance and strays from the middle of a chord by no more than twice the
+//! passes every vertex within the tolerance (folds without width excepted) and strays from the middle of a chord by no more than twice the
 //! tolerance and twice the bow.
 
 mod arc;
@@ -41,7 +41,10 @@ impl Default for TraceOptions {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TraceError {
     /// The tolerance is zero, negative, not a number, or finer than the files can hold.
-    #[error("a tolerance of {tolerance} mm cannot be kept; give at least {} mm", policy::LEAST_EXPORT_TOLERANCE)]
+    #[error(
+        "a tolerance of {tolerance} mm cannot be kept; give at least {} mm",
+        policy::LEAST_EXPORT_TOLERANCE
+    )]
     Tolerance {
         /// What was asked.
         tolerance: f64,
@@ -132,6 +135,7 @@ impl Trace {
             return Err(TraceError::Empty);
         }
         let points = without_specks(points, policy::CURVE_SHORTEST * tolerance);
+        let points = without_barbs(points, tolerance);
         if points.len() < 3 {
             return Err(TraceError::Empty);
         }
@@ -217,6 +221,22 @@ fn without_specks(points: &[Point], shortest: f64) -> Vec<Point> {
         kept.pop();
     }
     kept
+}
+
+/// Without vertices at which the outline turns back on itself within `width`.
+fn without_barbs(mut points: Vec<Point>, width: f64) -> Vec<Point> {
+    loop {
+        let n = points.len();
+        let barb = (0..n).find(|&i| {
+            let (a, b, c) = (points[(i + n - 1) % n], points[i], points[(i + 1) % n]);
+            let (near, far) = if (b - a).norm() < (c - b).norm() { (a, c) } else { (c, a) };
+            turn(a, b, c).abs() > policy::BARB_TURN && Arc::line(b, far).distance(near) < width
+        });
+        match barb {
+            Some(i) if n > 3 => points.remove(i),
+            _ => return points,
+        };
+    }
 }
 
 /// The stretches between corners; one ring when there are none.

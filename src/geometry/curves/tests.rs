@@ -23,7 +23,11 @@ fn sharp_teeth() -> Vec<Point> {
                 let d = rotate(Point::new(1.2 * a.cos(), -1.2 * a.sin()), TAU / 32.0);
                 middle + d.coords
             });
-            tip.into_iter().map(|(x, y)| Point::new(x, y)).chain(root).map(turned).collect::<Vec<_>>()
+            tip.into_iter()
+                .map(|(x, y)| Point::new(x, y))
+                .chain(root)
+                .map(turned)
+                .collect::<Vec<_>>()
         })
         .collect()
 }
@@ -63,7 +67,8 @@ fn corners_stay_exactly_where_they_are() {
     let outline = sharp_teeth();
     let trace = Trace::new(&outline, TraceOptions::default()).unwrap();
     let path = trace.arcs().unwrap();
-    let corners: Vec<Point> = joins(&path).filter(|(a, b)| kink(a, b) > 0.1).map(|(a, _)| a.to).collect();
+    let corners: Vec<Point> =
+        joins(&path).filter(|(a, b)| kink(a, b) > 0.1).map(|(a, _)| a.to).collect();
     assert!(corners.len() >= 32);
     for c in corners {
         assert!(outline.iter().any(|p| *p == c), "{c} is no vertex");
@@ -124,4 +129,17 @@ fn bad_input_is_refused() {
         let error = Trace::new(&waves(100), options).unwrap_err();
         assert!(matches!(error, TraceError::Tolerance { .. }));
     }
+}
+
+#[test]
+fn folds_without_width_are_dropped() {
+    let mut outline = waves(800);
+    let [p, q] = [outline[100], outline[101]];
+    let ahead = q + (q - p).normalize() * 0.008;
+    outline.insert(102, ahead);
+    outline.insert(103, q + (q - p).normalize() * 0.004);
+    let plain = Trace::new(&waves(800), TraceOptions::default()).unwrap().arcs().unwrap();
+    let path = Trace::new(&outline, TraceOptions::default()).unwrap().arcs().unwrap();
+    assert!(path.arcs().iter().all(|a| (a.from - ahead).norm() > 3e-3));
+    assert!((path.signed_area() - plain.signed_area()).abs() < 0.02);
 }
