@@ -611,3 +611,27 @@ pub const CUBIC_ROUNDS: usize = 12;
 pub const STRAIGHT_SAGITTA: f64 = 1e-6;
 /// How evenly the corners of a regular polygon must lie on a circle to be a round hole, relative.
 pub const ROUND_HOLE_EVENNESS: f64 = 1e-9;
+/// sRGB of the driver in CAD files, the light blue of the pictures.
+pub const DRIVER_COLOR: [u8; 3] = [148, 201, 238];
+/// sRGB of the follower in CAD files.
+pub const FOLLOWER_COLOR: [u8; 3] = [49, 85, 147];
+/// Tolerance of pitch curves in drawings, mm: nothing is cut along them.
+pub const DRAWN_CURVE_TOLERANCE: f64 = 0.01;
+/// Length that two points of a STEP file may lie apart and count as one, mm.
+pub const STEP_UNCERTAINTY: f64 = 1e-6;
+/// Greatest change of a gear's area by its curves, relative: beyond it a STEP file is refused.
+pub const STEP_AREA_ERROR: f64 = 1e-3;
+/// Parts into which a ring without corners is cut, so that no face meets itself.
+pub const RING_PARTS: usize = 4;
+/// Stroke of lines to cut, mm: laser programs cut what is thinner than 0.025 mm.
+pub const HAIRLINE: f64 = 0.01;
+/// Room around and between parts on a laser sheet, mm.
+pub const SHEET_GAP: f64 = 5.0;
+/// Widest kerf, mm: a laser's is 0.1 to 0.3, a plasma torch's 1 to 3.
+pub const LARGEST_KERF: f64 = 5.0;
+/// Chord of the corners that an offset by half a kerf rounds, radians of arc.
+pub const KERF_CHORD: f64 = 0.1;
+/// Half the size of the cross that marks an axis in drawings, mm.
+pub const AXIS_MARK: f64 = 1.5;
+/// The same for a hole, which may be a coarse polygon: the bow of a few chords weighs more there.
+pub const STEP_HOLE_AREA_ERROR: f64 = 0.05;

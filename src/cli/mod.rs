@@ -2,6 +2,8 @@
 
 mod args;
 mod design;
+mod export;
+mod files;
 mod progress;
 mod report;
 mod shapes;
@@ -39,6 +41,7 @@ impl Outcome {
 pub(crate) fn run(cli: Cli) -> anyhow::Result<Outcome> {
     match cli.command {
         Command::Design(args) => design::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::Shapes(args) => shapes::run(&args),
     }
 }

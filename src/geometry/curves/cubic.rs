@@ -50,6 +50,27 @@ impl CubicPath {
         control
     }
 
+    /// The same curve walked the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let end = self.knots[self.knots.len() - 1];
+        Self {
+            knots: self.knots.iter().rev().map(|k| end - k).collect(),
+            points: self.points.iter().rev().copied().collect(),
+            derivatives: self.derivatives.iter().rev().map(|d| -d).collect(),
+        }
+    }
+
+    /// The part from node `first` to node `last`.
+    #[must_use]
+    pub fn part(&self, first: usize, last: usize) -> Self {
+        Self {
+            knots: self.knots[first..=last].to_vec(),
+            points: self.points[first..=last].to_vec(),
+            derivatives: self.derivatives[first..=last].to_vec(),
+        }
+    }
+
     /// Twice the area swept from the origin, exact.
     #[must_use]
     pub fn doubled_area(&self) -> f64 {

@@ -21,6 +21,9 @@ use super::{Point, centroid, signed_area};
 use crate::policy;
 use samples::{Samples, turn};
 
+/// Places on each arc and cubic span where a trace is tested for crossings.
+const SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+
 /// How closely and how an outline is traced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TraceOptions {
@@ -153,7 +156,39 @@ impl Trace {
                 Err(k) => waiting.extend(run.parted(k).into_iter().rev()),
             }
         }
-        Ok(Self { stretches, samples, tolerance })
+        let trace = Self { stretches, samples, tolerance };
+        match super::first_self_crossing(&trace.flattened()) {
+            Some(at) => Err(TraceError::Crossing { at }),
+            None => Ok(trace),
+        }
+    }
+
+    /// Points along the curve, a few on each arc and cubic span.
+    fn flattened(&self) -> Vec<Point> {
+        let mut points = Vec::new();
+        for stretch in &self.stretches {
+            match stretch {
+                Stretch::Line(arc) => points.push(arc.from),
+                Stretch::Arc(arc) => points.extend(SHARES.map(|t| arc.at(t))),
+                Stretch::Cubic(path) => {
+                    for k in path.knots.windows(2) {
+                        points.extend(SHARES.map(|t| path.at(k[0] + t * (k[1] - k[0])).0));
+                    }
+                }
+            }
+        }
+        points
+    }
+
+    /// The outline's own straight edges as a trace: no deviation at all.
+    #[must_use]
+    pub fn polygon(points: &[Point]) -> Self {
+        let edge = |a: &Point, b: &Point| Samples::new(vec![*a, *b], false);
+        let samples: Vec<Samples> =
+            points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| edge(a, b)).collect();
+        let line = |s: &Samples| Stretch::Line(Arc::line(s.points[0], s.points[1]));
+        let stretches = samples.iter().map(line).collect();
+        Self { stretches, samples, tolerance: policy::EXPORT_TOLERANCE }
     }
 
     /// The stretches in the outline's order.

@@ -28,6 +28,13 @@ impl ArcPath {
         }
     }
 
+    /// The path with every point moved by a rotation or shift; anything else would bend arcs.
+    #[must_use]
+    pub fn mapped(&self, place: impl Fn(Point) -> Point) -> Self {
+        let moved = |a: &Arc| Arc { from: place(a.from), to: place(a.to), bulge: a.bulge };
+        Self { arcs: self.arcs.iter().map(moved).collect(), ..*self }
+    }
+
     /// The arcs in order.
     #[must_use]
     pub fn arcs(&self) -> &[Arc] {
