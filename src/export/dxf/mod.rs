@@ -1,21 +1,20 @@
 //! DXF for CAD programs, lasers and mills: one closed path per contour.
 
+mod r12;
+mod r2000;
+
 use super::contours::{Contour, contour};
 use super::{Export, ExportError, Parts, write_atomically};
 use crate::assembly::{Assembly, PlacedGear};
 use crate::geometry::Point;
 use crate::policy;
-use dxf::entities::{Circle, Entity, EntityType, LwPolyline, ModelPoint, Polyline, Vertex};
-use dxf::enums::{AcadVersion, DrawingUnits, Units};
-use dxf::tables::Layer;
-use dxf::{Color, Drawing, LwPolylineVertex};
-use std::io::{self, ErrorKind};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// `pair.dxf` with all gears in mesh, and `<gear>.dxf` with each alone, its axis at the origin; mm.
 ///
 /// One closed polyline with bulges per contour, round bores as circles. Layers: one per gear, named
-/// like it, `bores`, `pitch curves`, `centres`.
+/// like it, `bores`, `pitch-curves`, `centres`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dxf {
     /// Straight segments instead of arcs, for programs that read nothing else.
@@ -33,7 +32,7 @@ impl Default for Dxf {
 }
 
 const BORES: &str = "bores";
-const PITCH_CURVES: &str = "pitch curves";
+const PITCH_CURVES: &str = "pitch-curves";
 const CENTRES: &str = "centres";
 
 impl Export for Dxf {
@@ -53,15 +52,12 @@ impl Export for Dxf {
             .map(|g| self.drawn(g).map_err(|why| encode(&paths[0], why)))
             .collect::<Result<_, _>>()?;
         let gears = &parts.assembly.gears;
-        let mut drawings = vec![self.drawing(gears.iter().zip(&drawn), true)];
-        drawings.extend(gears.iter().zip(&drawn).map(|g| self.drawing([g].into_iter(), false)));
-        for (path, drawing) in paths.iter().zip(&drawings) {
-            write_atomically(path, |out| {
-                drawing.save(out).map_err(|e| match e {
-                    dxf::DxfError::IoError(e) => e,
-                    other => io::Error::new(ErrorKind::InvalidData, other.to_string()),
-                })
-            })?;
+        let mut sheets = vec![Self::sheet(gears.iter().zip(&drawn), true)];
+        sheets.extend(gears.iter().zip(&drawn).map(|g| Self::sheet([g].into_iter(), false)));
+        for (path, sheet) in paths.iter().zip(&sheets) {
+            let text = if self.r12 { r12::text(sheet) } else { r2000::text(sheet) };
+            let text = text.map_err(|why| encode(path, why))?;
+            write_atomically(path, |out| out.write_all(text.as_bytes()))?;
         }
         Ok(paths)
     }
@@ -86,96 +82,49 @@ impl Dxf {
         })
     }
 
-    fn drawing<'a>(
-        &self,
-        gears: impl Iterator<Item = (&'a PlacedGear, &'a Drawn)>,
-        in_place: bool,
-    ) -> Drawing {
-        let mut drawing = Drawing::new();
-        let header = &mut drawing.header;
-        header.version = if self.r12 { AcadVersion::R12 } else { AcadVersion::R2000 };
-        header.default_drawing_units = Units::Millimeters;
-        header.drawing_units = DrawingUnits::Metric;
-        // The same design gives the same bytes, whenever it is written.
-        header.creation_date = Default::default();
-        header.creation_date_universal = Default::default();
-        header.update_date = Default::default();
-        header.update_date_universal = Default::default();
-        header.fingerprint_guid = Default::default();
-        header.version_guid = Default::default();
-        for (name, color) in [(BORES, 1), (PITCH_CURVES, 8), (CENTRES, 3)] {
-            layer(&mut drawing, name, color);
-        }
+    /// The gears in mesh, or one alone with its axis at the origin.
+    fn sheet<'a>(gears: impl Iterator<Item = (&'a PlacedGear, &'a Drawn)>, in_mesh: bool) -> Sheet {
+        let mut sheet = Sheet {
+            layers: [(BORES, 1), (PITCH_CURVES, 8), (CENTRES, 3)]
+                .map(|(name, color)| (name.to_owned(), color))
+                .to_vec(),
+            items: Vec::new(),
+        };
         for (number, (placed, drawn)) in gears.enumerate() {
-            let name = placed.gear.name.as_str();
-            layer(&mut drawing, name, if number.is_multiple_of(2) { 5 } else { 4 });
+            let layer = plain(&placed.gear.name);
+            sheet.layers.push((layer.clone(), if number.is_multiple_of(2) { 5 } else { 4 }));
             let angle = placed.angle.first().copied().unwrap_or(0.0);
-            let (angle, axis) =
-                if in_place { (angle, placed.axis) } else { (0.0, Point::origin()) };
-            let mut add = |what: &Contour, layer| {
-                self.add(&mut drawing, &what.placed(angle, axis), layer);
+            let (angle, axis) = if in_mesh { (angle, placed.axis) } else { (0.0, Point::origin()) };
+            let mut add = |what: &Contour, layer: &str| {
+                sheet.items.push((layer.to_owned(), Item::Contour(what.placed(angle, axis))));
             };
-            add(&drawn.outline, name);
+            add(&drawn.outline, &layer);
             if let Some(bore) = &drawn.bore {
                 add(bore, BORES);
             }
             add(&drawn.pitch_curve, PITCH_CURVES);
-            let point = EntityType::ModelPoint(ModelPoint::new(flat(axis)));
-            put(&mut drawing, point, CENTRES);
+            sheet.items.push((CENTRES.to_owned(), Item::Point(axis)));
         }
-        drawing
-    }
-
-    fn add(&self, drawing: &mut Drawing, contour: &Contour, layer: &str) {
-        let entity = match contour {
-            Contour::Round { center, radius } => {
-                EntityType::Circle(Circle::new(flat(*center), *radius))
-            }
-            Contour::Path(path) if self.r12 => {
-                let mut line = Polyline::default();
-                line.set_is_closed(true);
-                for arc in path.arcs() {
-                    let corner =
-                        Vertex { location: flat(arc.from), bulge: arc.bulge, ..Vertex::default() };
-                    line.add_vertex(drawing, corner);
-                }
-                EntityType::Polyline(line)
-            }
-            Contour::Path(path) => {
-                let corner = |a: &crate::geometry::curves::Arc| LwPolylineVertex {
-                    x: a.from.x,
-                    y: a.from.y,
-                    bulge: a.bulge,
-                    ..LwPolylineVertex::default()
-                };
-                let mut line = LwPolyline {
-                    vertices: path.arcs().iter().map(corner).collect(),
-                    ..LwPolyline::default()
-                };
-                line.set_is_closed(true);
-                EntityType::LwPolyline(line)
-            }
-        };
-        put(drawing, entity, layer);
+        sheet
     }
 }
 
-fn layer(drawing: &mut Drawing, name: &str, color: u8) {
-    drawing.add_layer(Layer {
-        name: name.to_owned(),
-        color: Color::from_index(color),
-        ..Layer::default()
-    });
+/// What is drawn, in either dialect.
+struct Sheet {
+    /// Names and colour numbers.
+    layers: Vec<(String, u8)>,
+    /// Each on a layer.
+    items: Vec<(String, Item)>,
 }
 
-fn put(drawing: &mut Drawing, what: EntityType, layer: &str) {
-    let mut entity = Entity::new(what);
-    layer.clone_into(&mut entity.common.layer);
-    drawing.add_entity(entity);
+enum Item {
+    Contour(Contour),
+    Point(Point),
 }
 
-fn flat(p: Point) -> dxf::Point {
-    dxf::Point::new(p.x, p.y, 0.0)
+/// A name that every dialect takes for a layer.
+fn plain(name: &str) -> String {
+    name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
 }
 
 #[cfg(test)]
@@ -183,6 +132,8 @@ mod tests {
     use super::super::tests::wavy_pair;
     use super::*;
     use crate::geometry::curves::Arc;
+    use dxf::Drawing;
+    use dxf::entities::{EntityType, Vertex};
 
     fn read(path: &Path) -> Drawing {
         Drawing::load_file(path).unwrap()
