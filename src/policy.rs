@@ -703,3 +703,58 @@ pub const MOTION_CLOSES: f64 = 2e-3;
 pub const CHECK_CYCLES: f64 = 1.0;
 /// Intervals of the motion in a report.
 pub const CHECK_SAMPLES: usize = 256;
+
+// ---- Curves of exported outlines (`geometry::curves`) and CAD formats -------------------------
+
+/// Greatest distance between an exported curve and the vertices of the outline it stands for, mm: a tenth of
+/// what a good laser or printer can tell apart.
+pub const EXPORT_TOLERANCE: f64 = 0.002;
+/// Smallest tolerance that may be asked for, mm; below it rounding of six written decimals shows.
+pub const LEAST_EXPORT_TOLERANCE: f64 = 1e-5;
+/// Vertices that turn by more than this (radians, 17 degrees) are true corners; sampled curves, also
+/// those that clearance has rounded ([`INSET_ROUND_FROM`]), turn less.
+pub const CORNER_TURN: f64 = 0.3;
+/// An edge of a drawn hole this many times longer than both its neighbours is straight as drawn.
+pub const STRAIGHT_EDGE_RATIO: f64 = 4.0;
+/// Edges shorter than this share of the tolerance carry no direction worth following.
+pub const CURVE_SHORTEST: f64 = 1.0;
+/// A vertex at which the outline turns back by more than this (radians, 149 degrees) onto itself within the
+/// tolerance is a barb: offsets leave such folds without width, and every program that cuts trips over them.
+pub const BARB_TURN: f64 = 2.6;
+/// Share of the tolerance that the smooth curve under the arcs may use up; the arcs get the rest.
+pub const CURVE_SHARE: f64 = 0.5;
+/// Turn of one cubic span before fitting, radians: a cubic follows 45 degrees of arc to 4e-6 of its radius.
+pub const CUBIC_TURN: f64 = 0.8;
+/// Weight of bending against distance in a fit: decides tangents where data does not, and moves a
+/// curve by less than a nanometre elsewhere.
+pub const CUBIC_STIFFNESS: f64 = 1e-7;
+/// Rounds of splitting spans that miss the tolerance; each halves them.
+pub const CUBIC_ROUNDS: usize = 12;
+/// Sagitta below which an arc is written as a straight line, mm.
+pub const STRAIGHT_SAGITTA: f64 = 1e-6;
+/// How evenly the corners of a regular polygon must lie on a circle to be a round hole, relative.
+pub const ROUND_HOLE_EVENNESS: f64 = 1e-9;
+/// sRGB of the driver in CAD files, the light blue of the pictures.
+pub const DRIVER_COLOR: [u8; 3] = [148, 201, 238];
+/// sRGB of the follower in CAD files.
+pub const FOLLOWER_COLOR: [u8; 3] = [49, 85, 147];
+/// Tolerance of pitch curves in drawings, mm: nothing is cut along them.
+pub const DRAWN_CURVE_TOLERANCE: f64 = 0.01;
+/// Length that two points of a STEP file may lie apart and count as one, mm.
+pub const STEP_UNCERTAINTY: f64 = 1e-6;
+/// Greatest change of a gear's area by its curves, relative: beyond it a STEP file is refused.
+pub const STEP_AREA_ERROR: f64 = 1e-3;
+/// Parts into which a ring without corners is cut, so that no face meets itself.
+pub const RING_PARTS: usize = 4;
+/// Stroke of lines to cut, mm: laser programs cut what is thinner than 0.025 mm.
+pub const HAIRLINE: f64 = 0.01;
+/// Room around and between parts on a laser sheet, mm.
+pub const SHEET_GAP: f64 = 5.0;
+/// Widest kerf, mm: a laser's is 0.1 to 0.3, a plasma torch's 1 to 3.
+pub const LARGEST_KERF: f64 = 5.0;
+/// Chord of the corners that an offset by half a kerf rounds, radians of arc.
+pub const KERF_CHORD: f64 = 0.1;
+/// Half the size of the cross that marks an axis in drawings, mm.
+pub const AXIS_MARK: f64 = 1.5;
+/// The same for a hole, which may be a coarse polygon: the bow of a few chords weighs more there.
+pub const STEP_HOLE_AREA_ERROR: f64 = 0.05;

@@ -16,12 +16,18 @@ const POSES: usize = 64;
 const OVERLAP: f64 = 1e-4;
 
 /// Everything a run writes.
-const FILES: [&str; 8] = [
+const FILES: [&str; 14] = [
     "design.json",
+    "driver.dxf",
     "driver.stl",
+    "follower.dxf",
     "follower.stl",
+    "laser.svg",
+    "pair.3mf",
+    "pair.dxf",
     "pair.glb",
     "pair.obj",
+    "pair.step",
     "pair.svg",
     "report.html",
     "scene.xml",

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use centrode::export::Format;
 use centrode::geometry::Point;
 use centrode::policy;
 use centrode::solid::Bore;
@@ -25,8 +26,44 @@ pub(crate) enum Command {
     Design(Box<DesignArgs>),
     /// Judge two gears, whoever made them: exit code 0 when they mesh, 1 when not, 2 for bad input
     Check(Box<CheckArgs>),
+    /// Write more formats of a pair that `design` made before
+    Export(ExportCommand),
     /// List the built-in shapes
     Shapes(ShapesArgs),
+}
+
+/// Options of `centrode export`.
+#[derive(Debug, Args)]
+pub(crate) struct ExportCommand {
+    /// Folder that `centrode design` wrote, or its design.json
+    #[arg(value_name = "DESIGN")]
+    pub(crate) design: PathBuf,
+    /// Folder for the files [default: that of the design]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) formats: ExportArgs,
+}
+
+/// What is written.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Files")]
+pub(crate) struct ExportArgs {
+    /// Formats, separated by commas: glb, obj, stl, 3mf, step, dxf, svg, mjcf, html, json [default: all]
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',')]
+    pub(crate) export: Vec<Format>,
+    /// Greatest distance of the curves in STEP, DXF and laser.svg from the outline's vertices
+    #[arg(long, default_value = "0.002mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) curve_tolerance: f64,
+    /// DXF with straight segments only, for programs that do not read arcs
+    #[arg(long)]
+    pub(crate) dxf_polyline: bool,
+    /// DXF in the dialect of AutoCAD R12, for old machines
+    #[arg(long)]
+    pub(crate) dxf_r12: bool,
+    /// Width that the laser burns away: in laser.svg parts grow and bores shrink by half of it
+    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
+    pub(crate) kerf: f64,
 }
 
 /// Options of `centrode shapes`.
@@ -120,6 +157,8 @@ pub(crate) struct DesignArgs {
     pub(crate) teeth: TeethArgs,
     #[command(flatten)]
     pub(crate) size: SizeArgs,
+    #[command(flatten)]
+    pub(crate) formats: ExportArgs,
 }
 
 /// How the drawings are read.

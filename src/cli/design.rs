@@ -4,17 +4,16 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use centrode::design::{
-    BoreChoice, Design, DesignOptions, Record, Scale, TeethStyle, ToothCount, design,
+    BoreChoice, Design, DesignOptions, RECORD_NAME, Record, Scale, TeethStyle, ToothCount, design,
 };
-use centrode::export::{
-    Export, ExportError, Glb, Mjcf, Obj, Parts, Staging, Stl, write_atomically, write_json,
-};
+use centrode::export::{ExportError, Format, Parts, Staging, write_json};
 use centrode::fit::{FitOptions, Limits, Ratio, Search};
 use centrode::outline::{LoadOptions, Shape, Smoothing, load};
-use centrode::report::{PictureOptions, pair_svg, report_html};
+use centrode::report::report_html;
 use centrode::solid::{Mesh, assembly_solids};
 
-use super::args::{CarverArg, DesignArgs, SearchArg, StyleArg};
+use super::args::{CarverArg, DesignArgs, ExportArgs, SearchArg, StyleArg};
+use super::files::{write_parts, write_text};
 use super::progress::Progress;
 use super::{Outcome, report};
 
@@ -113,29 +112,25 @@ fn unsound(made: &Design, args: &DesignArgs) -> String {
 
 fn write(made: &Design, meshes: &[Mesh], args: &DesignArgs) -> anyhow::Result<Vec<PathBuf>> {
     let staging = Staging::new(&args.output)?;
-    let files = write_into(staging.path(), made, meshes)
+    let files = write_into(staging.path(), made, meshes, &args.formats)
         .map_err(|error| staging.told_of_the_final_place(error))?;
     Ok(staging.publish(&files)?)
 }
 
-fn write_into(folder: &Path, made: &Design, meshes: &[Mesh]) -> Result<Vec<PathBuf>, ExportError> {
+fn write_into(
+    folder: &Path,
+    made: &Design,
+    meshes: &[Mesh],
+    formats: &ExportArgs,
+) -> Result<Vec<PathBuf>, ExportError> {
     let parts = Parts { assembly: &made.assembly, meshes };
-    let formats: [&dyn Export; 4] = [&Glb::default(), &Stl, &Obj, &Mjcf::default()];
-    let mut files = Vec::new();
-    for format in formats {
-        files.extend(format.write(parts, folder)?);
+    let mut files = write_parts(folder, parts, formats)?;
+    if formats.wants(Format::Html) {
+        let page = report_html(&made.assembly, &report::page(made));
+        files.push(write_text(folder, "report.html", &page)?);
     }
-    let texts = [
-        ("pair.svg", pair_svg(&made.assembly, &PictureOptions::default())),
-        ("report.html", report_html(&made.assembly, &report::page(made))),
-    ];
-    for (name, text) in texts {
-        let path = folder.join(name);
-        write_atomically(&path, |out| std::io::Write::write_all(out, text.as_bytes()))?;
-        files.push(path);
-    }
-    // Last, so that a folder with a record is a folder that is complete.
-    let path = folder.join("design.json");
+    // Always and last, so that a folder with a record is a folder that is complete.
+    let path = folder.join(RECORD_NAME);
     write_json(&path, &Record::new(made))?;
     files.push(path);
     Ok(files)

@@ -3,6 +3,8 @@
 mod args;
 mod check;
 mod design;
+mod export;
+mod files;
 mod progress;
 mod report;
 mod shapes;
@@ -41,6 +43,7 @@ pub(crate) fn run(cli: Cli) -> anyhow::Result<Outcome> {
     match cli.command {
         Command::Design(args) => design::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::Shapes(args) => shapes::run(&args),
     }
 }

@@ -4,9 +4,11 @@ mod attempt;
 mod feasibility;
 mod options;
 mod record;
+mod saved;
 
 pub use options::{BoreChoice, DesignError, DesignOptions, Scale, TeethStyle, ToothCount};
 pub use record::Record;
+pub use saved::{RECORD_NAME, SavedDesign, SavedError};
 
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::fit::{self, Fit, FittedGear, Objective};

@@ -1,25 +1,38 @@
 //! One file per format, behind one small trait.
 //!
 //! Exporters write what they are given, an [`Assembly`] and the checked solid of
-//! each of its gears; they compute no geometry of their own. Every file appears
+//! each of its gears; what they draw of it (curves through an outline's vertices) comes from
+//! [`crate::geometry::curves`]. Every file appears
 //! whole or not at all ([`write_atomically`]).
 
 mod atomic;
+mod contours;
+mod dxf;
+mod format;
 mod glb;
 mod json;
 mod keys;
+mod laser_svg;
 mod mjcf;
 mod obj;
 mod staging;
+mod step;
 mod stl;
+mod threemf;
+mod xml;
 
 pub use atomic::{ExportError, prepare_folder, write_atomically};
+pub use dxf::Dxf;
+pub use format::{Format, UnknownFormat};
 pub use glb::Glb;
 pub use json::write_json;
+pub use laser_svg::LaserSvg;
 pub use mjcf::Mjcf;
 pub use obj::Obj;
 pub use staging::Staging;
+pub use step::Step;
 pub use stl::Stl;
+pub use threemf::ThreeMf;
 
 use crate::assembly::Assembly;
 use crate::solid::Mesh;
@@ -90,7 +103,16 @@ mod tests {
         let (assembly, meshes) = wavy_pair();
         let folder = tempfile::tempdir().unwrap();
         let parts = Parts { assembly: &assembly, meshes: &meshes };
-        let formats: [&dyn Export; 4] = [&Stl, &Obj, &Glb::default(), &Mjcf::default()];
+        let formats: [&dyn Export; 8] = [
+            &Stl,
+            &Obj,
+            &Glb::default(),
+            &ThreeMf,
+            &Step::default(),
+            &Dxf::default(),
+            &LaserSvg::default(),
+            &Mjcf::default(),
+        ];
         for format in formats {
             let written = format.write(parts, folder.path()).unwrap();
             let names: Vec<PathBuf> =
@@ -99,6 +121,6 @@ mod tests {
             assert!(written.iter().all(|p| p.metadata().unwrap().len() > 1000));
         }
         let left = std::fs::read_dir(folder.path()).unwrap().count();
-        assert_eq!(left, 5, "no temporary file stays");
+        assert_eq!(left, 11, "no temporary file stays");
     }
 }

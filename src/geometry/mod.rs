@@ -1,5 +1,6 @@
 //! Plane geometry shared by every room: points, polygons, booleans, splines.
 
+pub mod curves;
 mod polygon;
 mod region;
 

@@ -485,8 +485,7 @@ fn contact_angles(
     for (i, step) in steps.iter_mut().enumerate() {
         let (k, rest) = (i / stride, (i % stride) as f64 / stride as f64);
         let (a, b) = (distance(&found[k]), distance(&found[(k + 1).min(found.len() - 1)]));
-        step.contact_angle =
-            a.zip(b).map(|(a, b)| step.follower_angle - a - (b - a) * rest);
+        step.contact_angle = a.zip(b).map(|(a, b)| step.follower_angle - a - (b - a) * rest);
     }
     Ok(())
 }

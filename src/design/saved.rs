@@ -1,0 +1,289 @@
+//! A finished design read back from its record.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::assembly::{Assembly, Gear, PlacedGear};
+use crate::geometry::{self, Point};
+use crate::policy;
+
+/// Name of the record in a design's folder.
+pub const RECORD_NAME: &str = "design.json";
+
+/// What `design.json` holds of a pair: enough to draw, export, or turn it. Lengths in mm, angles in
+/// radians, each gear in its own frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SavedDesign {
+    /// Names of the two shapes, driver first.
+    pub names: [String; 2],
+    /// Turns of the driver for one turn of the follower.
+    pub ratio: f64,
+    /// Distance between the axes, mm.
+    pub center_distance: f64,
+    /// Module, mm.
+    pub module: f64,
+    /// Thickness of both gears, mm.
+    pub thickness: f64,
+    /// Driver and follower, named so.
+    pub gears: [Gear; 2],
+    /// Driver angle at each motion sample: from zero, increasing, over one whole cycle.
+    pub driver_angle: Vec<f64>,
+    /// How far the follower has turned, clockwise, at each of these samples.
+    pub follower_angle: Vec<f64>,
+    /// Every option of the run as it was written.
+    pub settings: Value,
+    /// The verdict on the mesh and its numbers as they were written.
+    pub meshing: Value,
+}
+
+/// Why a record cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum SavedError {
+    /// There is no such file, or it may not be read.
+    #[error("cannot read {} ({source}); give a folder that `centrode design` wrote, or its design.json", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file is no record of a design, or a damaged one.
+    #[error("{} is not the record of a design ({why}); run `centrode design` again to get one", path.display())]
+    NotADesign {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        why: String,
+    },
+}
+
+impl SavedDesign {
+    /// Reads a record: the file itself, or the `design.json` in a folder.
+    ///
+    /// # Errors
+    /// [`SavedError`], naming the file.
+    pub fn read(path: &Path) -> Result<Self, SavedError> {
+        let file = if path.is_dir() { path.join(RECORD_NAME) } else { path.to_owned() };
+        match fs::read_to_string(&file) {
+            Ok(text) => {
+                Self::from_json(&text).map_err(|why| SavedError::NotADesign { path: file, why })
+            }
+            Err(e) if e.kind() == io::ErrorKind::InvalidData => {
+                Err(SavedError::NotADesign { path: file, why: "it is not text".to_owned() })
+            }
+            Err(source) => Err(SavedError::Unreadable { path: file, source }),
+        }
+    }
+
+    /// Reads a record from its text.
+    ///
+    /// # Errors
+    /// What is missing or wrong, as half a sentence.
+    pub fn from_json(text: &str) -> Result<Self, String> {
+        let file: File = serde_json::from_str(text).map_err(|e| e.to_string())?;
+        if file.units != "mm" {
+            return Err(format!("its units are {:?} instead of \"mm\"", file.units));
+        }
+        for (name, value) in [
+            ("ratio", file.ratio),
+            ("center_distance", file.center_distance),
+            ("module", file.module),
+            ("thickness", file.thickness),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(format!("its {name} is {value}"));
+            }
+        }
+        let motion = &file.motion;
+        if motion.driver_angle.len() != motion.follower_angle.len() {
+            return Err("its two lists of angles differ in length".to_owned());
+        }
+        for (name, angles) in
+            [("driver", &motion.driver_angle), ("follower", &motion.follower_angle)]
+        {
+            let rises = angles.len() > 1 && angles[0] == 0.0 && angles.is_sorted_by(|a, b| a < b);
+            if !rises || !angles.iter().all(|a| a.is_finite()) {
+                return Err(format!("its {name} angles do not rise from 0"));
+            }
+        }
+        let gears = [gear("driver", file.driver)?, gear("follower", file.follower)?];
+        Ok(Self {
+            names: file.names,
+            ratio: file.ratio,
+            center_distance: file.center_distance,
+            module: file.module,
+            thickness: file.thickness,
+            gears,
+            driver_angle: file.motion.driver_angle,
+            follower_angle: file.motion.follower_angle,
+            settings: file.settings,
+            meshing: file.meshing,
+        })
+    }
+
+    /// The gears on their axes with their motion, as [`super::design`] left them.
+    #[must_use]
+    pub fn assembly(&self) -> Assembly {
+        let [driver, follower] = self.gears.clone();
+        let turned = self.follower_angle.iter().map(|a| 0.0 - a).collect();
+        let place = Point::new(self.center_distance, 0.0);
+        Assembly {
+            gears: vec![
+                PlacedGear {
+                    gear: driver,
+                    axis: Point::origin(),
+                    angle: self.driver_angle.clone(),
+                },
+                PlacedGear { gear: follower, axis: place, angle: turned },
+            ],
+            driver_angle: self.driver_angle.clone(),
+            thickness: self.thickness,
+        }
+    }
+}
+
+/// The part of the file that is read; more may stand beside it.
+#[derive(Deserialize)]
+struct File {
+    units: String,
+    #[serde(default = "plain_names")]
+    names: [String; 2],
+    ratio: f64,
+    center_distance: f64,
+    module: f64,
+    #[serde(default = "plain_thickness")]
+    thickness: f64,
+    driver: FileGear,
+    follower: FileGear,
+    motion: FileMotion,
+    #[serde(default)]
+    settings: Value,
+    #[serde(default)]
+    meshing: Value,
+}
+
+#[derive(Deserialize)]
+struct FileGear {
+    teeth: u32,
+    pitch_curve: Vec<[f64; 2]>,
+    outline: Vec<[f64; 2]>,
+    bore: Option<Vec<[f64; 2]>>,
+    #[serde(default)]
+    input: Vec<[f64; 2]>,
+}
+
+#[derive(Deserialize)]
+struct FileMotion {
+    driver_angle: Vec<f64>,
+    follower_angle: Vec<f64>,
+}
+
+fn plain_names() -> [String; 2] {
+    ["driver", "follower"].map(str::to_owned)
+}
+
+fn plain_thickness() -> f64 {
+    policy::DEFAULT_THICKNESS
+}
+
+fn gear(name: &str, file: FileGear) -> Result<Gear, String> {
+    let ring = |what: &str, points: Vec<[f64; 2]>| -> Result<Vec<Point>, String> {
+        let points: Vec<Point> = points.into_iter().map(|[x, y]| Point::new(x, y)).collect();
+        if !points.iter().all(|p| p.x.is_finite() && p.y.is_finite()) {
+            return Err(format!("the {what} of its {name} has a coordinate without bounds"));
+        }
+        if points.len() < 3 || geometry::signed_area(&points) <= 0.0 {
+            return Err(format!(
+                "the {what} of its {name} is not a counter-clockwise curve with an area"
+            ));
+        }
+        Ok(points)
+    };
+    if file.teeth == 0 {
+        return Err(format!("its {name} has no teeth"));
+    }
+    Ok(Gear {
+        name: name.to_owned(),
+        outline: ring("outline", file.outline)?,
+        bore: file.bore.map(|b| ring("bore", b)).transpose()?,
+        pitch_curve: ring("pitch curve", file.pitch_curve)?,
+        input: file.input.into_iter().map(|[x, y]| Point::new(x, y)).collect(),
+        teeth: file.teeth,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{DesignOptions, Record, ToothCount, design};
+    use super::*;
+    use crate::outline::{LoadOptions, load};
+
+    fn square(side: f64) -> Value {
+        serde_json::json!([[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]])
+    }
+
+    fn sample() -> Value {
+        let gear = || {
+            serde_json::json!({"teeth": 4, "pitch_curve": square(2.0), "outline": square(3.0),
+                "bore": null, "input": []})
+        };
+        serde_json::json!({"units": "mm", "ratio": 1.0, "center_distance": 5.0, "module": 1.0,
+            "driver": gear(), "follower": gear(), "settings": {"repair": true},
+            "motion": {"driver_angle": [0.0, 1.0], "follower_angle": [0.0, 0.5]}})
+    }
+
+    #[test]
+    fn a_written_design_reads_back_to_the_last_bit() {
+        let options = LoadOptions { samples: 256, ..LoadOptions::default() };
+        let shapes = ["ellipse", "egg"].map(|name| load(name, &options).unwrap());
+        let mut settings = DesignOptions::new("1".parse().unwrap());
+        settings.teeth = ToothCount::Teeth(20);
+        let made = design(&shapes[0], &shapes[1], &settings).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        crate::export::write_json(&folder.path().join(RECORD_NAME), &Record::new(&made)).unwrap();
+        let read = SavedDesign::read(folder.path()).unwrap();
+        assert_eq!(read.assembly(), made.assembly);
+        assert_eq!(read.names, made.names);
+        assert_eq!((read.ratio, read.module), (1.0, made.pair.module));
+        assert_eq!(read.settings["repair"], true);
+    }
+
+    #[test]
+    fn a_bare_record_is_enough() {
+        let read = SavedDesign::from_json(&sample().to_string()).unwrap();
+        assert_eq!(read.thickness, policy::DEFAULT_THICKNESS);
+        assert_eq!(read.names, ["driver", "follower"]);
+        assert_eq!(read.assembly().gears[1].angle, [0.0, -0.5]);
+    }
+
+    #[test]
+    fn damage_is_named() {
+        let broken = |path: &str, value: Value| {
+            let mut record = sample();
+            *record.pointer_mut(path).unwrap() = value;
+            SavedDesign::from_json(&record.to_string()).unwrap_err()
+        };
+        let flat = serde_json::json!([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]);
+        assert!(broken("/units", "inch".into()).contains("inch"));
+        assert!(broken("/module", (-1.0).into()).contains("module"));
+        assert!(broken("/driver/outline", flat).contains("outline of its driver"));
+        assert!(broken("/follower/teeth", 0.into()).contains("follower"));
+        assert!(broken("/motion/driver_angle", serde_json::json!([0.0, -1.0])).contains("rise"));
+        assert!(broken("/motion/driver_angle", serde_json::json!([0.0])).contains("length"));
+        assert!(SavedDesign::from_json("{").is_err());
+    }
+
+    #[test]
+    fn a_missing_file_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = SavedDesign::read(&folder.path().join("none")).unwrap_err().to_string();
+        assert!(error.contains("none") && error.contains("centrode design"), "{error}");
+        std::fs::write(folder.path().join("a.json"), [0xff, 0xfe]).unwrap();
+        let error = SavedDesign::read(&folder.path().join("a.json")).unwrap_err().to_string();
+        assert!(error.contains("not text"), "{error}");
+    }
+}

@@ -1,0 +1,255 @@
+//! SVG for laser cutters: millimetres, hairlines, layers in the order of work, room for the kerf.
+
+use super::contours::{Contour, contour};
+use super::xml::escaped;
+use super::{Export, ExportError, Parts, write_atomically};
+use crate::assembly::{Assembly, Gear};
+use crate::geometry::curves::Arc;
+use crate::geometry::{self, Point, Vector};
+use crate::policy;
+use std::fmt::Write as _;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// `laser.svg`: the gears side by side, never overlapping, with the pitch curves to engrave (blue), then the
+/// bores and last the outlines to cut (red), each in its own layer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaserSvg {
+    /// Width that the beam burns away, mm: outlines move outward and bores inward by half of it.
+    pub kerf: f64,
+    /// Greatest distance between a vertex of the outline and the arcs, mm.
+    pub tolerance: f64,
+}
+
+impl Default for LaserSvg {
+    fn default() -> Self {
+        Self { kerf: 0.0, tolerance: policy::EXPORT_TOLERANCE }
+    }
+}
+
+impl Export for LaserSvg {
+    fn file_names(&self, _: &Assembly) -> Vec<String> {
+        vec!["laser.svg".to_owned()]
+    }
+
+    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
+        let path = folder.join("laser.svg");
+        let text = self
+            .sheet(parts.assembly)
+            .map_err(|why| ExportError::Encode { path: path.clone(), why })?;
+        write_atomically(&path, |out| out.write_all(text.as_bytes()))?;
+        Ok(vec![path])
+    }
+}
+
+/// What the beam does to one gear, in the gear's frame.
+struct Work {
+    outline: Contour,
+    bore: Option<Contour>,
+    pitch_curve: Contour,
+    low: Point,
+    high: Point,
+}
+
+impl LaserSvg {
+    fn sheet(&self, assembly: &Assembly) -> Result<String, String> {
+        let works: Vec<Work> =
+            assembly.gears.iter().map(|g| self.work(&g.gear)).collect::<Result<_, _>>()?;
+        let gap = policy::SHEET_GAP;
+        let mut shifts = Vec::new();
+        let (mut right, mut height) = (gap, 0.0_f64);
+        for work in &works {
+            // Down the page: the sheet's y is turned when it is written.
+            shifts.push(Vector::new(right - work.low.x, -gap - work.high.y));
+            right += work.high.x - work.low.x + gap;
+            height = height.max(work.high.y - work.low.y + 2.0 * gap);
+        }
+        let mut svg = String::new();
+        let names: Vec<&str> = assembly.gears.iter().map(|g| g.gear.name.as_str()).collect();
+        let _ = write!(
+            svg,
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" \
+             xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
+             width=\"{right:.3}mm\" height=\"{height:.3}mm\" viewBox=\"0 0 {right:.3} {height:.3}\" \
+             fill=\"none\" stroke-width=\"{}\">\n<title>{}</title>\n<desc>1 unit = 1 mm; kerf {} mm\
+             </desc>\n",
+            policy::HAIRLINE,
+            escaped(&names.join(" and ")),
+            self.kerf
+        );
+        let mut layer = |name: &str, color: &str, pick: &dyn Fn(&Work) -> String| {
+            let _ = writeln!(
+                svg,
+                "<g id=\"{name}\" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\" \
+                 stroke=\"{color}\">"
+            );
+            for ((work, shift), gear) in works.iter().zip(&shifts).zip(&names) {
+                let drawn = pick(work);
+                if !drawn.is_empty() {
+                    let _ = writeln!(
+                        svg,
+                        "<g id=\"{}-{name}\" transform=\"translate({:.4} {:.4})\">{drawn}</g>",
+                        escaped(gear),
+                        shift.x,
+                        0.0 - shift.y
+                    );
+                }
+            }
+            svg.push_str("</g>\n");
+        };
+        layer("engrave", "#0000ff", &|w| {
+            drawn(&w.pitch_curve) + &if w.bore.is_none() { cross() } else { String::new() }
+        });
+        layer("cut-bores", "#ff0000", &|w| w.bore.as_ref().map_or(String::new(), drawn));
+        layer("cut-outlines", "#ff0000", &|w| drawn(&w.outline));
+        svg.push_str("</svg>\n");
+        Ok(svg)
+    }
+
+    fn work(&self, gear: &Gear) -> Result<Work, String> {
+        if !(0.0..=policy::LARGEST_KERF).contains(&self.kerf) {
+            return Err(format!(
+                "a kerf of {} mm is out of range, give 0 to {} mm",
+                self.kerf,
+                policy::LARGEST_KERF
+            ));
+        }
+        let half = 0.5 * self.kerf;
+        let outline = moved(&gear.outline, half)
+            .ok_or_else(|| format!("half a kerf closes gaps of the {}", gear.name))?;
+        let bore = match &gear.bore {
+            None => None,
+            Some(bore) => {
+                let narrow = || format!("the kerf closes the bore of the {}", gear.name);
+                Some(match contour(bore, self.tolerance, true, false)? {
+                    Contour::Round { radius, .. } if radius <= half => return Err(narrow()),
+                    Contour::Round { center, radius } => {
+                        Contour::Round { center, radius: radius - half }
+                    }
+                    path @ Contour::Path(_) if half == 0.0 => path,
+                    Contour::Path(_) => {
+                        let smaller = moved(bore, -half).ok_or_else(narrow)?;
+                        contour(&smaller, self.tolerance, true, false)?
+                    }
+                })
+            }
+        };
+        let (low, high) = geometry::bounds(&outline);
+        Ok(Work {
+            outline: contour(&outline, self.tolerance, false, false)?,
+            bore,
+            pitch_curve: contour(
+                &gear.pitch_curve,
+                policy::DRAWN_CURVE_TOLERANCE.max(self.tolerance),
+                false,
+                false,
+            )?,
+            low,
+            high,
+        })
+    }
+}
+
+/// The ring offset outward, when it stays one ring.
+fn moved(ring: &[Point], distance: f64) -> Option<Vec<Point>> {
+    if distance == 0.0 {
+        return Some(ring.to_vec());
+    }
+    let mut faces = geometry::offset(ring, distance, policy::KERF_CHORD);
+    match (faces.pop(), faces.is_empty()) {
+        (Some(mut face), true) if face.len() == 1 => face.pop(),
+        _ => None,
+    }
+}
+
+/// Marks the axis of a gear without a bore.
+fn cross() -> String {
+    let s = policy::AXIS_MARK;
+    format!("<path d=\"M {} 0 H {s} M 0 {} V {s}\"/>", -s, -s)
+}
+
+/// The contour as an SVG element, y turned downwards.
+fn drawn(contour: &Contour) -> String {
+    match contour {
+        Contour::Round { center, radius } => {
+            format!(
+                "<circle cx=\"{:.5}\" cy=\"{:.5}\" r=\"{radius:.5}\"/>",
+                center.x,
+                0.0 - center.y
+            )
+        }
+        Contour::Path(path) => {
+            let mut d = String::new();
+            for (i, arc) in path.arcs().iter().enumerate() {
+                if i == 0 {
+                    let _ = write!(d, "M {:.5} {:.5}", arc.from.x, 0.0 - arc.from.y);
+                }
+                segment(&mut d, arc);
+            }
+            format!("<path d=\"{d} Z\"/>")
+        }
+    }
+}
+
+fn segment(d: &mut String, arc: &Arc) {
+    let (x, y) = (arc.to.x, 0.0 - arc.to.y);
+    if arc.bulge == 0.0 {
+        let _ = write!(d, " L {x:.5} {y:.5}");
+    } else {
+        let radius = arc.radius();
+        let large = u8::from(arc.angle().abs() > std::f64::consts::PI);
+        // Counter-clockwise to the eye is against the sense of SVG's downward axes.
+        let sweep = u8::from(arc.bulge < 0.0);
+        let _ = write!(d, " A {radius:.5} {radius:.5} 0 {large} {sweep} {x:.5} {y:.5}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::wavy_pair;
+    use super::*;
+
+    fn sheet(kerf: f64) -> Result<String, String> {
+        LaserSvg { kerf, ..LaserSvg::default() }.sheet(&wavy_pair().0)
+    }
+
+    #[test]
+    fn the_sheet_is_millimetres_in_layers_in_the_order_of_work() {
+        let text = sheet(0.0).unwrap();
+        let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).unwrap();
+        // 96 dpi: 25.4 mm are 96 px. Two gears 85 mm wide and three gaps.
+        let millimetres = |px: f32| f64::from(px) * 25.4 / 96.0;
+        assert!((millimetres(tree.size().width()) - 185.0).abs() < 0.2);
+        assert!((millimetres(tree.size().height()) - 95.0).abs() < 0.2);
+        let at = |what: &str| text.find(what).unwrap();
+        assert!(at("engrave") < at("cut-bores") && at("cut-bores") < at("cut-outlines"));
+        assert_eq!(text.matches("<circle").count(), 1);
+    }
+
+    #[test]
+    fn the_kerf_widens_outlines_and_narrows_bores() {
+        let (assembly, _) = wavy_pair();
+        let gear = &assembly.gears[0].gear;
+        let area = |kerf| {
+            let work = LaserSvg { kerf, ..LaserSvg::default() }.work(gear).unwrap();
+            let area = |arcs: Vec<Arc>| -> f64 {
+                let chord = |a: &Arc| 0.5 * geometry::cross(a.from.coords, a.to.coords);
+                arcs.iter().map(|a| chord(a) + a.segment_area()).sum()
+            };
+            (area(work.outline.arcs()), area(work.bore.unwrap().arcs()))
+        };
+        let (plain, kerfed) = (area(0.0), area(0.2));
+        let perimeter = geometry::perimeter(&gear.outline);
+        assert!((kerfed.0 - plain.0 - 0.1 * perimeter).abs() < 0.5, "{plain:?} {kerfed:?}");
+        assert!((plain.1 - std::f64::consts::PI * 6.25).abs() < 1e-9);
+        assert!((kerfed.1 - std::f64::consts::PI * 2.4 * 2.4).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_kerf_that_closes_a_bore_is_refused() {
+        assert!(sheet(4.9).unwrap_err().contains("bore"));
+        for kerf in [-0.1, f64::NAN, 6.0] {
+            assert!(sheet(kerf).unwrap_err().contains("kerf"), "{kerf}");
+        }
+    }
+}
