@@ -758,3 +758,19 @@ pub const KERF_CHORD: f64 = 0.1;
 pub const AXIS_MARK: f64 = 1.5;
 /// The same for a hole, which may be a coarse polygon: the bow of a few chords weighs more there.
 pub const STEP_HOLE_AREA_ERROR: f64 = 0.05;
+
+/// Densities of what gears are made of, kg/m^3: makers' data sheets, rounded.
+pub const DENSITIES: [(&str, f64); 10] = [
+    ("pla", DEFAULT_DENSITY),
+    ("petg", 1270.0),
+    ("abs", 1040.0),
+    ("nylon", 1140.0),
+    ("pom", 1410.0),
+    ("resin", 1180.0),
+    ("plywood", 650.0),
+    ("acrylic", 1190.0),
+    ("aluminium", 2700.0),
+    ("steel", 7850.0),
+];
+/// Cycles of the runs that a new design must pass: one led and one by motor.
+pub const DESIGN_CYCLES: f64 = 1.0;

@@ -26,6 +26,8 @@ pub(crate) enum Command {
     Design(Box<DesignArgs>),
     /// Judge two gears, whoever made them: exit code 0 when they mesh, 1 when not, 2 for bad input
     Check(Box<CheckArgs>),
+    /// Run a saved design again as rigid bodies, with other load, friction or direction
+    Simulate(Box<SimulateArgs>),
     /// Write more formats of a pair that `design` made before
     Export(ExportCommand),
     /// List the built-in shapes
@@ -159,6 +161,54 @@ pub(crate) struct DesignArgs {
     pub(crate) size: SizeArgs,
     #[command(flatten)]
     pub(crate) formats: ExportArgs,
+    /// Do not run the pair as rigid bodies
+    #[arg(long, help_heading = "Simulation")]
+    pub(crate) no_simulate: bool,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+}
+
+/// How a pair is run as rigid bodies.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Simulation")]
+pub(crate) struct RunArgs {
+    /// Torque that holds the follower back, N mm
+    #[arg(long, default_value_t = policy::DEFAULT_LOAD, value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
+    pub(crate) load: f64,
+    /// Speed of the driver, turns a minute
+    #[arg(long, default_value_t = policy::DEFAULT_RPM, value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
+    pub(crate) rpm: f64,
+    /// Friction between the flanks in the run by motor, 0 to 2; the measuring run has none
+    #[arg(long, default_value_t = policy::DEFAULT_FRICTION, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
+    pub(crate) friction: f64,
+    /// What the gears are made of: pla, petg, abs, nylon, pom, resin, plywood, acrylic, aluminium, steel
+    #[arg(long, default_value = "pla", value_name = "NAME", value_parser = units::material)]
+    pub(crate) material: f64,
+    /// Density instead of a material, kg/m^3
+    #[arg(long, value_name = "DENSITY", value_parser = units::positive, allow_hyphen_values = true)]
+    pub(crate) density: Option<f64>,
+    /// Torque limit of the motor that looks for jams, N mm [default: 5 times what the load asks for]
+    #[arg(long, value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
+    pub(crate) motor_torque: Option<f64>,
+    /// Run the driver both ways round
+    #[arg(long)]
+    pub(crate) both: bool,
+}
+
+/// Options of `centrode simulate`.
+#[derive(Debug, Args)]
+pub(crate) struct SimulateArgs {
+    /// Folder that `centrode design` wrote, or its design.json
+    #[arg(value_name = "DESIGN")]
+    pub(crate) design: PathBuf,
+    /// Whole cycles of both gears
+    #[arg(long, default_value_t = policy::SIMULATED_CYCLES, value_name = "CYCLES", value_parser = units::positive, allow_hyphen_values = true)]
+    pub(crate) cycles: f64,
+    /// Print the verdict and the figures as JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
 }
 
 /// How the drawings are read.

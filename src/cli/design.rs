@@ -24,7 +24,11 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     progress.doing("reading the shapes");
     let [driver, follower] = read(args)?;
     progress.doing(format!("fitting {} to {}", driver.name, follower.name));
-    let made = design(&driver, &follower, &options)?;
+    let mut made = design(&driver, &follower, &options)?;
+    if !args.no_simulate && made.is_sound() {
+        progress.doing("running the gears");
+        made.simulate(&args.run.runs(made.assembly.thickness, centrode::policy::DESIGN_CYCLES))?;
+    }
     if !made.is_sound() && !args.teeth.force {
         progress.done();
         eprintln!("error: {}", unsound(&made, args));
@@ -128,6 +132,9 @@ fn write_into(
     if formats.wants(Format::Html) {
         let page = report_html(&made.assembly, &report::page(made));
         files.push(write_text(folder, "report.html", &page)?);
+    }
+    if let Some(proof) = &made.proof {
+        files.extend(super::proof::write_tables(folder, proof)?);
     }
     // Always and last, so that a folder with a record is a folder that is complete.
     let path = folder.join(RECORD_NAME);

@@ -6,8 +6,10 @@ mod design;
 mod export;
 mod files;
 mod progress;
+mod proof;
 mod report;
 mod shapes;
+mod simulate;
 mod units;
 
 pub(crate) use args::Cli;
@@ -43,6 +45,7 @@ pub(crate) fn run(cli: Cli) -> anyhow::Result<Outcome> {
     match cli.command {
         Command::Design(args) => design::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Shapes(args) => shapes::run(&args),
     }

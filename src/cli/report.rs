@@ -47,6 +47,7 @@ pub(crate) fn summary(
             "transmission_error_p99": error.map(|e| e.p99_deviation),
             "lost_poses": contact.lost_poses,
             "contact_ratio": contact.contact_ratio,
+            "simulation": made.proof.as_ref().map(|p| p.runs.iter().map(super::proof::record).collect::<Vec<_>>()),
             "seconds": elapsed.as_secs_f64(),
         });
         writeln!(out, "{value}")?;
@@ -80,6 +81,9 @@ pub(crate) fn summary(
             contact.lost_poses,
             made.contact.poses.len()
         )?;
+    }
+    for line in made.proof.iter().flat_map(super::proof::lines) {
+        writeln!(out, "{line}")?;
     }
     for step in &made.steps {
         writeln!(out, "step: {step}")?;
@@ -129,8 +133,14 @@ pub(crate) fn page(made: &Design) -> ReportData {
         made_by: concat!("centrode ", env!("CARGO_PKG_VERSION")).to_owned(),
         verdict,
         summary,
-        sections: sections(made),
-        plots: plots(made),
+        sections: sections(made)
+            .into_iter()
+            .chain(made.proof.iter().flat_map(super::proof::sections))
+            .collect(),
+        plots: plots(made)
+            .into_iter()
+            .chain(made.proof.iter().flat_map(super::proof::plots))
+            .collect(),
         notes,
     }
 }

@@ -99,6 +99,16 @@ pub(crate) fn two_counts(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// A number of zero or more.
+/// Density of a named material, kg/m^3.
+pub(crate) fn material(text: &str) -> Result<f64, String> {
+    let wanted = text.trim().to_ascii_lowercase();
+    let table = centrode::policy::DENSITIES;
+    table.iter().find(|(name, _)| *name == wanted).map(|(_, density)| *density).ok_or_else(|| {
+        let names: Vec<&str> = table.iter().map(|(name, _)| *name).collect();
+        format!("there is no material {text:?}; choose from {} or give --density", names.join(", "))
+    })
+}
+
 pub(crate) fn zero_or_more(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),

@@ -442,6 +442,7 @@ impl Attempt {
             likeness,
             exact_contact: self.exact,
             contact: self.contact,
+            proof: None,
             steps,
             warnings,
             faults,

@@ -13,7 +13,10 @@ pub use saved::{RECORD_NAME, SavedDesign, SavedError};
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::fit::{self, Fit, FittedGear, Objective};
 use crate::geometry::{self, Point};
-use crate::meshing::ContactAnalysis;
+use crate::meshing::{
+    ContactAnalysis, ContactInput, DynamicsError, DynamicsInput, DynamicsOptions, Limits,
+    MeshingReport, Reason, prove,
+};
 use crate::outline::Shape;
 use crate::pitch::Centrodes;
 use crate::policy;
@@ -44,6 +47,8 @@ pub struct Design {
     pub exact_contact: ContactAnalysis,
     /// Contact of the finished gears.
     pub contact: ContactAnalysis,
+    /// The rigid-body runs and their verdict, once made.
+    pub proof: Option<MeshingReport>,
     /// What was done to make the pair work, in order.
     pub steps: Vec<String>,
     /// What deserves attention.
@@ -57,6 +62,35 @@ impl Design {
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.faults.is_empty()
+    }
+
+    /// Runs the finished pair as rigid bodies in each of the ways given; what that finds is added to
+    /// the faults and warnings.
+    ///
+    /// # Errors
+    /// See [`DynamicsError`].
+    pub fn simulate(&mut self, runs: &[DynamicsOptions]) -> Result<(), DynamicsError> {
+        let [driver, follower] = &self.assembly.gears[..] else { return Ok(()) };
+        let transmission = &self.centrodes.transmission;
+        let contact = ContactInput {
+            driver: &driver.gear.outline,
+            follower: &follower.gear.outline,
+            center_distance: self.centrodes.center_distance,
+            module: self.pair.module,
+            motion: &|phi| transmission.psi(phi),
+            motion_derivative: &|phi| transmission.derivative(phi),
+            driver_cycle: self.assembly.driver_angle.last().copied().unwrap_or_default(),
+        };
+        let input = DynamicsInput { contact, driver_teeth: self.teeth[0] };
+        let proof = prove(&input, self.contact.clone(), runs, &Limits::default())?;
+        // The contact analysis has been judged already, by stricter limits.
+        let new = |r: &&Reason| {
+            !matches!(r, Reason::ContactLost { .. } | Reason::Overlap { .. } | Reason::NoContact)
+        };
+        self.faults.extend(proof.faults.iter().filter(new).map(ToString::to_string));
+        self.warnings.extend(proof.warnings.iter().filter(new).map(ToString::to_string));
+        self.proof = Some(proof);
+        Ok(())
     }
 
     /// How many teeth of one period, both gears together, are full, steeper, shortened, blunted.

@@ -29,4 +29,4 @@ pub use gap::{Gap, GapFinder};
 pub use motion::{MotionError, SampledMotion};
 pub use partition::{PartitionError, convex_partition};
 pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};
-pub use verdict::{Limits, MeshingReport, Reason, Verdict, judge};
+pub use verdict::{Limits, MeshingReport, Reason, Verdict, judge, prove, proving_runs};

@@ -1,8 +1,11 @@
 //! One verdict from the contact analysis and the runs.
 
 use super::contact::ContactAnalysis;
-use super::dynamics::{Dynamics, Stop};
+use super::dynamics::{
+    Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, Stop, simulate,
+};
 use crate::policy;
+use rayon::prelude::*;
 use std::fmt;
 
 /// Where a pair fails, and where it deserves a warning. Defaults and their reasons in [`policy`].
@@ -332,4 +335,42 @@ fn judge_run(
     if run.stopped.is_none() && s.efficiency < limits.efficiency {
         warnings.push(Reason::Losses { share: s.efficiency, limit: limits.efficiency });
     }
+}
+
+/// Runs a pair in every way given and judges it together with its contact analysis.
+///
+/// The runs are independent of one another and are made side by side; their order is kept.
+///
+/// # Errors
+/// See [`DynamicsError`].
+pub fn prove(
+    input: &DynamicsInput<'_>,
+    contact: ContactAnalysis,
+    runs: &[DynamicsOptions],
+    limits: &Limits,
+) -> Result<MeshingReport, DynamicsError> {
+    let made: Result<Vec<Dynamics>, DynamicsError> =
+        runs.par_iter().map(|options| simulate(input, options)).collect();
+    Ok(judge(contact, made?, input.contact.module, input.driver_teeth, limits))
+}
+
+/// The runs that prove a pair: for each sense of rotation one that measures, led and without friction,
+/// and one that looks for jams, by motor and with the friction given.
+#[must_use]
+pub fn proving_runs(options: &DynamicsOptions, both_ways: bool) -> Vec<DynamicsOptions> {
+    let senses: &[Direction] =
+        if both_ways { &[Direction::Forward, Direction::Backward] } else { &[Direction::Forward] };
+    let motor = match options.drive {
+        Drive::Led => Drive::Motor(None),
+        motor => motor,
+    };
+    senses
+        .iter()
+        .flat_map(|&direction| {
+            [
+                DynamicsOptions { drive: Drive::Led, friction: 0.0, direction, ..*options },
+                DynamicsOptions { drive: motor, direction, ..*options },
+            ]
+        })
+        .collect()
 }

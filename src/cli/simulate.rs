@@ -1,0 +1,110 @@
+//! `centrode simulate`: a saved design run again as rigid bodies.
+
+use std::io::Write;
+
+use anyhow::Context;
+use centrode::design::SavedDesign;
+use centrode::export::Staging;
+use centrode::meshing::{
+    ContactInput, ContactOptions, DynamicsInput, Limits, MeshingReport, SampledMotion, Verdict,
+    analyse, prove,
+};
+use centrode::report::{Note, NoteKind, ReportData, Section, Verdict as Badge, report_html};
+use serde_json::json;
+
+use super::args::SimulateArgs;
+use super::files::write_text;
+use super::progress::Progress;
+use super::{Outcome, proof};
+
+pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
+    let saved = SavedDesign::read(&args.design)?;
+    let progress = Progress::new();
+    progress.doing("working out the contact");
+    let motion = SampledMotion::new(&saved.driver_angle, &saved.follower_angle)?;
+    let [driver, follower] = &saved.gears;
+    let contact = ContactInput {
+        driver: &driver.outline,
+        follower: &follower.outline,
+        center_distance: saved.center_distance,
+        module: saved.module,
+        motion: &|angle| motion.psi(angle),
+        motion_derivative: &|angle| motion.derivative(angle),
+        driver_cycle: saved.driver_angle.last().copied().unwrap_or(std::f64::consts::TAU),
+    };
+    let analysis = analyse(&contact, &ContactOptions::default())?;
+    progress.doing("running the gears");
+    let runs = args.run.runs(saved.thickness, args.cycles);
+    let input = DynamicsInput { contact, driver_teeth: driver.teeth };
+    let report = prove(&input, analysis, &runs, &Limits::default())?;
+    progress.doing("writing files");
+    let folder = match (args.design.is_dir(), args.design.parent()) {
+        (true, _) | (false, None) => args.design.clone(),
+        (false, Some(parent)) if parent.as_os_str().is_empty() => ".".into(),
+        (false, Some(parent)) => parent.to_owned(),
+    };
+    let staging = Staging::new(&folder)?;
+    let mut files = proof::write_tables(staging.path(), &report)?;
+    let page = report_html(&saved.assembly(), &page(&saved, &report));
+    files.push(write_text(staging.path(), "report.html", &page)?);
+    let files = staging.publish(&files)?;
+    progress.done();
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        let sentences = |reasons: &[centrode::meshing::Reason]| -> Vec<String> {
+            reasons.iter().map(ToString::to_string).collect()
+        };
+        let value = json!({
+            "verdict": report.verdict.label(),
+            "meshes": report.verdict != Verdict::DoesNotMesh,
+            "faults": sentences(&report.faults),
+            "warnings": sentences(&report.warnings),
+            "runs": report.runs.iter().map(proof::record).collect::<Vec<_>>(),
+            "files": files,
+        });
+        writeln!(out, "{value}").context("cannot write to standard output")?;
+    } else {
+        let mut lines = vec![report.verdict.label().to_owned()];
+        lines.extend(report.faults.iter().map(|r| format!("  fault: {r}")));
+        lines.extend(report.warnings.iter().map(|r| format!("  warning: {r}")));
+        lines.extend(proof::lines(&report));
+        lines.extend(files.iter().map(|f| f.display().to_string()));
+        writeln!(out, "{}", lines.join("\n")).context("cannot write to standard output")?;
+    }
+    Ok(if report.verdict == Verdict::DoesNotMesh { Outcome::NotSound } else { Outcome::Good })
+}
+
+fn page(saved: &SavedDesign, report: &MeshingReport) -> ReportData {
+    let [driver, follower] = &saved.gears;
+    let gears = Section::new("Gears")
+        .row("Teeth", format!("{} and {}", driver.teeth, follower.teeth))
+        .row("Module", format!("{:.3} mm", saved.module))
+        .row("Centre distance", format!("{:.3} mm", saved.center_distance))
+        .row("Thickness", format!("{:.2} mm", saved.thickness));
+    let reasons = if report.faults.is_empty() { &report.warnings } else { &report.faults };
+    let said: Vec<String> = reasons.iter().map(ToString::to_string).collect();
+    let note = |kind: NoteKind| move |r: &centrode::meshing::Reason| Note::new(kind, r.to_string());
+    ReportData {
+        title: format!("{} and {}, simulated", saved.names[0], saved.names[1]),
+        command: String::new(),
+        made_by: concat!("centrode ", env!("CARGO_PKG_VERSION")).to_owned(),
+        verdict: match report.verdict {
+            Verdict::Meshes => Badge::Good,
+            Verdict::MeshesWithWarnings => Badge::Warnings,
+            Verdict::DoesNotMesh => Badge::Unsound,
+        },
+        summary: if said.is_empty() {
+            "The pair meshes: contact is kept and the torque arrives.".to_owned()
+        } else {
+            said.join(" ")
+        },
+        sections: std::iter::once(gears).chain(proof::sections(report)).collect(),
+        plots: proof::plots(report),
+        notes: report
+            .faults
+            .iter()
+            .map(note(NoteKind::Fault))
+            .chain(report.warnings.iter().map(note(NoteKind::Warning)))
+            .collect(),
+    }
+}
