@@ -744,8 +744,9 @@ pub const DRAWN_CURVE_TOLERANCE: f64 = 0.01;
 pub const STEP_UNCERTAINTY: f64 = 1e-6;
 /// Greatest change of a gear's area by its curves, relative: beyond it a STEP file is refused.
 pub const STEP_AREA_ERROR: f64 = 1e-3;
-/// Parts into which a ring without corners is cut, so that no face meets itself.
-pub const RING_PARTS: usize = 4;
+/// Most cubic spans of one face of a STEP file: about eight faces a tooth. Readers integrate volumes over longer
+/// ones with errors of a thousandth and more.
+pub const SPANS_PER_FACE: usize = 4;
 /// Stroke of lines to cut, mm: laser programs cut what is thinner than 0.025 mm.
 pub const HAIRLINE: f64 = 0.01;
 /// Room around and between parts on a laser sheet, mm.

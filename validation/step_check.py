@@ -111,7 +111,7 @@ def main(folder):
             if not BRep_Tool.IsClosed_s(shell):
                 faults.append(f"{gear}: open shell")
         properties = GProp_GProps()
-        BRepGProp.VolumeProperties_s(shape, properties, 1e-6)
+        BRepGProp.VolumeProperties_s(shape, properties)
         bore = hole_area(data["bore"]) if data["bore"] else 0.0
         wanted = (area(data["outline"]) - bore) * record["thickness"]
         off = properties.Mass() / wanted - 1
@@ -131,10 +131,10 @@ def main(folder):
             faults.append(f"{gear}: stands at {shift.X()}, {shift.Y()}, {shift.Z()}")
         box = Bnd_Box()
         BRepBndLib.AddOptimal_s(shape, box, False, False)
-        low_x, low_y, low_z, high_x, high_y, high_z = box.Get()
+        low, high = box.CornerMin(), box.CornerMax()
         outline = np.asarray(data["outline"])
         extent = [*outline.min(0), 0.0, *outline.max(0), record["thickness"]]
-        if np.abs(np.subtract([low_x, low_y, low_z, high_x, high_y, high_z], extent)).max() > 0.02:
+        if np.abs(np.subtract([f() for p in (low, high) for f in (p.X, p.Y, p.Z)], extent)).max() > 0.02:
             faults.append(f"{gear}: extent differs")
         said.append(f"{gear} {faces:.1f} faces a tooth, volume {off:+.1e}")
     if parts.Length() != 2:

@@ -142,17 +142,17 @@ impl Step {
         if !((area / drawn - 1.0).abs() <= most) {
             return Err(format!("its curves enclose {area:.4} mm^2 instead of {drawn:.4} mm^2"));
         }
-        match trace.stretches() {
-            // A ring without corners: cut, so that no face meets itself.
-            [Stretch::Cubic(path)] => {
-                let spans = path.knots.len() - 1;
-                let parts = policy::RING_PARTS.min(spans);
-                let node = |i: usize| i * spans / parts;
-                Ok((0..parts).map(|i| Stretch::Cubic(path.part(node(i), node(i + 1)))).collect())
-            }
-            stretches => Ok(stretches.to_vec()),
-        }
+        Ok(trace.stretches().iter().flat_map(parts).collect())
     }
+}
+
+/// A long curve in parts of a few spans, so that faces stay handy and no face meets itself.
+fn parts(stretch: &Stretch) -> Vec<Stretch> {
+    let Stretch::Cubic(path) = stretch else { return vec![stretch.clone()] };
+    let spans = path.knots.len() - 1;
+    let count = spans.div_ceil(policy::SPANS_PER_FACE);
+    let node = |i: usize| i * spans / count;
+    (0..count).map(|i| Stretch::Cubic(path.part(node(i), node(i + 1)))).collect()
 }
 
 fn common(e: &mut Entities) -> Common {
