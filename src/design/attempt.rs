@@ -145,6 +145,7 @@ pub(super) struct Attempt {
     rounding: fit::LimitCost,
     /// In modules.
     allowed_interference: f64,
+    is_confirmed: bool,
     /// Places relieved, and the worst of them in pitches.
     relief: (usize, f64),
 }
@@ -207,12 +208,17 @@ impl Attempt {
             contact,
             rounding,
             allowed_interference,
+            is_confirmed: false,
             relief: (0, 0.0),
         })
     }
 
     /// The attempt with its contact analysed at every pose that a delivered pair is judged by.
     pub(super) fn confirmed(mut self, options: &DesignOptions) -> Result<Self, DesignError> {
+        if self.is_confirmed {
+            return Ok(self);
+        }
+        self.is_confirmed = true;
         let poses = policy::CONTACT_POSES;
         let (centrodes, module) = (&self.centrodes, self.pair.module);
         let gears = [&self.pair.driver, &self.pair.follower];
