@@ -758,3 +758,13 @@ pub const KERF_CHORD: f64 = 0.1;
 pub const AXIS_MARK: f64 = 1.5;
 /// The same for a hole, which may be a coarse polygon: the bow of a few chords weighs more there.
 pub const STEP_HOLE_AREA_ERROR: f64 = 0.05;
+
+// Contacts on the page.
+
+/// Moments a tooth at which a run's contacts are kept for drawing: between two of them a contact
+/// moves along its flank by less than a third of a module.
+pub const TOUCHES_PER_TOOTH: u32 = 8;
+/// Moments of contact on the page; longer cycles show fewer a tooth. Keeps them under 150 kB.
+pub const PAGE_CONTACT_FRAMES: usize = 2_500;
+/// Length of the greatest force on the page, in widths of the view.
+pub const PAGE_FORCE_LENGTH: f64 = 0.1;

@@ -131,6 +131,7 @@ pub(crate) fn page(made: &Design) -> ReportData {
         summary,
         sections: sections(made),
         plots: plots(made),
+        contacts: Vec::new(),
         notes,
     }
 }

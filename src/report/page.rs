@@ -1,12 +1,13 @@
 //! One self-contained page on which the gears turn.
 
+use super::contacts;
 use super::data::{NoteKind, ReportData, Row, Section, Verdict};
 use super::plot::Scaled;
 use super::text::{Grid, escape, json_for_script, plain};
 use super::thin::thin_ring;
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::geometry::{self, Point};
-use crate::policy::{CLOSE_UP_PITCHES, PAGE_DIGITS, PAGE_MOTION_NUMBERS, PAGE_POINTS};
+use crate::policy::{CLOSE_UP_PITCHES, PAGE_DIGITS, PAGE_FORCE_LENGTH, PAGE_MOTION_NUMBERS, PAGE_POINTS};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -20,7 +21,7 @@ const POLICY: &str =
 /// The page: turning gears, numbers, plots and notes in one HTML document.
 ///
 /// Needs no network and no other file. Outlines and curves finer than a screen can show
-/// are thinned, so that the page stays below about 1.5 MB. Without scripts it shows the first pose.
+/// are thinned, and long lists of contacts too, so that the page stays below about 1.5 MB. Without scripts it shows the first pose.
 /// Opened as `report.html#angle=90` it stands still with the driver at 90 degrees.
 #[must_use]
 pub fn report_html(assembly: &Assembly, data: &ReportData) -> String {
@@ -56,6 +57,7 @@ pub fn report_html(assembly: &Assembly, data: &ReportData) -> String {
         "verdict": data.verdict, "summary": data.summary,
         "sections": data.sections, "notes": data.notes,
         "motion": stage.motion(assembly), "view": stage.view, "close_up": stage.close_up,
+        "contacts": contacts::block(&data.contacts, stage.grid), "force_length": PAGE_FORCE_LENGTH,
         "plots": plots.iter().map(Scaled::json).collect::<Vec<_>>(),
     });
     let _ = write!(
@@ -308,10 +310,9 @@ impl Stage {
             out,
             "<g class=\"layer axes\"><path class=\"light\" d=\"{line}\"/>\
              <path class=\"centers\" d=\"{line}\"/><path class=\"halo\" d=\"{marks}\"/>\
-             <path d=\"{marks}\"/></g>
-</g>
-</svg>
-"
+             <path d=\"{marks}\"/></g>\n\
+             <g class=\"layer contacts\"><path class=\"halo\"/><path class=\"force\"/><path class=\"touch\"/></g>\n\
+             </g>\n</svg>\n"
         );
         self.caption(assembly, ruled, out);
         out.push_str(CONTROLS);
@@ -347,6 +348,7 @@ const CONTROLS: &str = r#"<div class="controls" hidden>
 <label><input type="checkbox" data-layer="input" checked> drawings</label>
 <label><input type="checkbox" data-layer="pitch" checked> pitch curves</label>
 <label><input type="checkbox" data-layer="axes" checked> axes</label>
+<label id="contacts" title="Where the teeth press on each other, and the force on the follower; the longest line is the greatest force of the run" hidden><input type="checkbox" data-layer="contacts" checked> contact and forces</label>
 <label><input type="checkbox" id="close-up"> close-up of the mesh</label>
 </fieldset>
 </div>
