@@ -766,5 +766,11 @@ pub const STEP_HOLE_AREA_ERROR: f64 = 0.05;
 pub const TOUCHES_PER_TOOTH: u32 = 8;
 /// Moments of contact on the page; longer cycles show fewer a tooth. Keeps them under 150 kB.
 pub const PAGE_CONTACT_FRAMES: usize = 2_500;
-/// Length of the greatest force on the page, in widths of the view.
+/// Decimals of the driver angle (radians) and of forces (0 to 1) of a contact on the page: a
+/// tenth of a pixel on a 100 mm pair.
+pub const PAGE_CONTACT_DIGITS: i32 = 4;
+/// Share of a run's forces that are drawn in full; the rest are cut off. In steep pairs up to
+/// one step in twenty has a spike, of up to 100,000 times the usual force.
+pub const PAGE_USUAL_FORCES: f64 = 0.9;
+/// Length of the greatest usual force on the page, in widths of the view.
 pub const PAGE_FORCE_LENGTH: f64 = 0.1;

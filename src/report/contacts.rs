@@ -3,35 +3,38 @@
 use super::data::{ContactFrame, Touch};
 use super::text::Grid;
 use crate::meshing::{Dynamics, Touches};
-use crate::policy::PAGE_CONTACT_FRAMES;
+use crate::policy::{PAGE_CONTACT_DIGITS, PAGE_CONTACT_FRAMES, PAGE_USUAL_FORCES};
 use serde_json::{Value, json};
-
-/// Places of a driver angle in the page, and of a force: finer than a screen shows.
-const DIGITS: i32 = 4;
 
 /// The contacts of the first cycle of a run, by rising driver angle.
 ///
 /// `driver_cycle` is the driver's turn, radians, after which every gear is back in its first pose. The
 /// driver's axis is taken as the origin. A run backward is put where the page shows the same pose.
+/// Forces are given over the one that [`PAGE_USUAL_FORCES`] of all stay under, and cut off there:
+/// single steps have spikes of many times the usual force.
+///
 /// Moments at which a motor stood still or swung back are left out; so is what is not finite.
 #[must_use]
 pub fn contact_frames(run: &Dynamics, driver_cycle: f64) -> Vec<ContactFrame> {
-    let greatest = run
+    let mut sizes: Vec<f64> = run
         .touches
         .iter()
         .flat_map(|t| &t.points)
         .map(|(_, force)| force.norm())
         .filter(|f| f.is_finite())
-        .fold(f64::MIN_POSITIVE, f64::max);
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    let usual = (PAGE_USUAL_FORCES * sizes.len() as f64).ceil() as usize;
+    let unit =
+        usual.checked_sub(1).and_then(|i| sizes.get(i)).map_or(1.0, |f| f.max(f64::MIN_POSITIVE));
     let frame = |touches: &Touches| ContactFrame {
         driver_angle: touches.driver_angle.rem_euclid(driver_cycle),
         touches: touches
             .points
             .iter()
-            .map(|(p, force)| Touch {
-                x: p.x,
-                y: p.y,
-                force: [force.x / greatest, force.y / greatest],
+            .map(|(p, force)| {
+                let length = force.norm().max(unit);
+                Touch { x: p.x, y: p.y, force: [force.x / length, force.y / length] }
             })
             .filter(is_finite)
             .collect(),
@@ -49,7 +52,7 @@ fn is_finite(touch: &Touch) -> bool {
 
 /// Lists `[driver angle, x, y, force x, force y, x, y, ...]`, at most [`PAGE_CONTACT_FRAMES`].
 pub(super) fn block(frames: &[ContactFrame], grid: Grid) -> Value {
-    let fine = 10f64.powi(DIGITS);
+    let fine = 10f64.powi(PAGE_CONTACT_DIGITS);
     // Adding zero makes a minus zero plain.
     let rounded = |v: f64| (v * fine).round() / fine + 0.0;
     let stride = frames.len().div_ceil(PAGE_CONTACT_FRAMES).max(1);
@@ -82,11 +85,12 @@ mod tests {
     }
 
     #[test]
-    fn frames_rise_within_the_cycle_and_the_greatest_force_is_one() {
+    fn frames_rise_within_the_cycle_and_forces_are_over_the_usual_ones() {
         let at = |driver_angle, force: f64| Touches {
             driver_angle,
             points: vec![(Point::new(24.0, 1.0), Vector::new(0.6 * force, -0.8 * force))],
         };
+        // Of few forces the greatest is the unit.
         let frames = contact_frames(&run(vec![at(-0.1, 5.0), at(-0.3, 20.0), at(-0.2, 1.0)]), TAU);
         let angles: Vec<f64> = frames.iter().map(|f| f.driver_angle).collect();
         let wanted = [TAU - 0.3, TAU - 0.2, TAU - 0.1];
@@ -94,6 +98,13 @@ mod tests {
         let first = frames[0].touches[0];
         assert!((first.force[0] - 0.6).abs() < 1e-12 && (first.force[1] + 0.8).abs() < 1e-12);
         assert!((frames[2].touches[0].force[0] - 0.15).abs() < 1e-12);
+        // One wedged tooth among many does not shrink all others.
+        let many = (0..100).map(|i| at(0.01 * f64::from(i), if i == 40 { 1e6 } else { 2.0 }));
+        let frames = contact_frames(&run(many.collect()), TAU);
+        for frame in &frames {
+            let [x, y] = frame.touches[0].force;
+            assert!((x - 0.6).abs() < 1e-12 && (y + 0.8).abs() < 1e-12, "{frame:?}");
+        }
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub struct Touch {
     pub x: f64,
     /// World position, mm.
     pub y: f64,
-    /// Force on the follower over the greatest of the run, so 0 to 1 long.
+    /// Force on the follower over the greatest usual one of the run, 0 to 1 long.
     pub force: [f64; 2],
 }
 

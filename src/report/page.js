@@ -113,13 +113,13 @@
     const turn = nearest ? angle - nearest[0] : 0;
     const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
     const [left, low] = turning[0].axis;
-    const step = (v) => v.toFixed(4);
+    const text = (v) => v.toFixed(4);
     for (let i = 1; nearest && i + 3 < nearest.length; i += 4) {
       const [x, y, forceX, forceY] = nearest.slice(i, i + 4);
       const at = [left + cos * (x - left) - sin * (y - low), low + sin * (x - left) + cos * (y - low)];
-      const start = `M${at.map(step).join(" ")}`;
+      const start = `M${at.map(text).join(" ")}`;
       dots += `${start}h0`;
-      lines += `${start}l${step(length * forceX)} ${step(length * forceY)}`;
+      lines += `${start}l${text(length * forceX)} ${text(length * forceY)}`;
     }
     contacts.touch.setAttribute("d", dots);
     for (const path of contacts.force) path.setAttribute("d", lines);

@@ -7,7 +7,9 @@ use super::text::{Grid, escape, json_for_script, plain};
 use super::thin::thin_ring;
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::geometry::{self, Point};
-use crate::policy::{CLOSE_UP_PITCHES, PAGE_DIGITS, PAGE_FORCE_LENGTH, PAGE_MOTION_NUMBERS, PAGE_POINTS};
+use crate::policy::{
+    CLOSE_UP_PITCHES, PAGE_DIGITS, PAGE_FORCE_LENGTH, PAGE_MOTION_NUMBERS, PAGE_POINTS,
+};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -348,7 +350,7 @@ const CONTROLS: &str = r#"<div class="controls" hidden>
 <label><input type="checkbox" data-layer="input" checked> drawings</label>
 <label><input type="checkbox" data-layer="pitch" checked> pitch curves</label>
 <label><input type="checkbox" data-layer="axes" checked> axes</label>
-<label id="contacts" title="Where the teeth press on each other, and the force on the follower; the longest line is the greatest force of the run" hidden><input type="checkbox" data-layer="contacts" checked> contact and forces</label>
+<label id="contacts" title="Where the teeth press on each other, and the force on the follower; the longest line is the greatest usual force of the run" hidden><input type="checkbox" data-layer="contacts" checked> contact and forces</label>
 <label><input type="checkbox" id="close-up"> close-up of the mesh</label>
 </fieldset>
 </div>
@@ -367,7 +369,7 @@ fn ruling(extent: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Note, Plot, fixture};
+    use super::super::{ContactFrame, Note, Plot, Touch, fixture};
     use super::*;
 
     fn page() -> String {
@@ -413,6 +415,24 @@ mod tests {
                     < 1e-3 * (0.5 * f).tan().abs().max(1.0)
             );
         }
+    }
+
+    #[test]
+    fn the_contacts_are_in_the_page_and_hidden_where_there_are_none() {
+        assert_eq!(block(&page())["contacts"], json!([]));
+        let touch = |x, y| Touch { x, y, force: [-0.342_02, 0.939_69] };
+        let mut data = fixture::report();
+        data.contacts = vec![
+            ContactFrame { driver_angle: 0.032_725, touches: vec![touch(39.123_456, -1.5)] },
+            ContactFrame { driver_angle: 0.065_46, touches: Vec::new() },
+        ];
+        let html = report_html(&fixture::ellipses(), &data);
+        let wanted = json!([[0.0327, 39.123, -1.5, -0.342, 0.9397], [0.0655]]);
+        assert_eq!(block(&html)["contacts"], wanted);
+        // The script shows the switch; without contacts, or without scripts, nobody sees it.
+        let (_, switch) = html.split_once("<label id=\"contacts\"").expect("the switch");
+        assert!(switch.split_once('>').is_some_and(|(tag, _)| tag.ends_with(" hidden")));
+        assert!(html.contains("<g class=\"layer contacts\">"));
     }
 
     #[test]
