@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 /// `driver_cycle` is the driver's turn, radians, after which every gear is back in its first pose. The
 /// driver's axis is taken as the origin. A run backward is put where the page shows the same pose.
 /// Forces are given over the one that [`PAGE_USUAL_FORCES`] of all stay under, and cut off there:
-/// single steps have spikes of many times the usual force.
+/// where several teeth wedge each other for a step, forces whose moments cancel can be of any size.
 ///
 /// Moments at which a motor stood still or swung back are left out; so is what is not finite.
 #[must_use]
