@@ -613,7 +613,7 @@ pub const RELIEF_CORNER: f64 = 0.02;
 /// Farthest that a corner moves when tips are moved, in multiples of that move.
 pub const RELIEF_REACH: f64 = 3.0;
 /// Rounds of contact analysis and relief.
-pub const RELIEF_ROUNDS: usize = 2;
+pub const RELIEF_ROUNDS: usize = 3;
 
 // ---- Files: MuJoCo scenes -----------------------------------------------------------------------
 
@@ -775,3 +775,23 @@ pub const DENSITIES: [(&str, f64); 10] = [
 ];
 /// Cycles of the runs that a new design must pass: one led and one by motor.
 pub const DESIGN_CYCLES: f64 = 1.0;
+// Contacts on the page.
+
+/// Moments a tooth at which a run's contacts are kept for drawing: between two of them a contact
+/// moves along its flank by less than a third of a module.
+pub const TOUCHES_PER_TOOTH: u32 = 8;
+/// Moments of contact on the page; longer cycles show fewer a tooth. Keeps them under 150 kB.
+pub const PAGE_CONTACT_FRAMES: usize = 2_500;
+/// Decimals of the driver angle (radians) and of forces (0 to 1) of a contact on the page: a
+/// tenth of a pixel on a 100 mm pair.
+pub const PAGE_CONTACT_DIGITS: i32 = 4;
+/// Share of a run's forces that are drawn in full; the rest are cut off. In steep pairs up to
+/// one step in twenty has a spike, of up to 100,000 times the usual force.
+pub const PAGE_USUAL_FORCES: f64 = 0.9;
+/// Length of the greatest usual force on the page, in widths of the view.
+pub const PAGE_FORCE_LENGTH: f64 = 0.1;
+/// Pairs with less and less lean that are tried when the first one fails as rigid bodies.
+pub const PROOF_REPAIRS: usize = 2;
+/// Walls thinner than twice this, in modules, are taken off a follower after relief: carving leaves
+/// slivers that hang on by a point.
+pub const RELIEF_SLIVER: f64 = 1e-3;

@@ -16,7 +16,7 @@ const POSES: usize = 64;
 const OVERLAP: f64 = 1e-4;
 
 /// Everything a run writes.
-const FILES: [&str; 14] = [
+const FILES: [&str; 16] = [
     "design.json",
     "driver.dxf",
     "driver.stl",
@@ -31,6 +31,8 @@ const FILES: [&str; 14] = [
     "pair.svg",
     "report.html",
     "scene.xml",
+    "simulation-motor.csv",
+    "simulation.csv",
 ];
 
 struct Made {

@@ -24,11 +24,7 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     progress.doing("reading the shapes");
     let [driver, follower] = read(args)?;
     progress.doing(format!("fitting {} to {}", driver.name, follower.name));
-    let mut made = design(&driver, &follower, &options)?;
-    if !args.no_simulate && made.is_sound() {
-        progress.doing("running the gears");
-        made.simulate(&args.run.runs(made.assembly.thickness, centrode::policy::DESIGN_CYCLES))?;
-    }
+    let made = design(&driver, &follower, &options)?;
     if !made.is_sound() && !args.teeth.force {
         progress.done();
         eprintln!("error: {}", unsound(&made, args));
@@ -88,6 +84,11 @@ fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
             None => defaults.bore,
         },
         repair: !args.teeth.strict,
+        runs: if args.no_simulate {
+            Vec::new()
+        } else {
+            args.run.runs(args.size.thickness, centrode::policy::DESIGN_CYCLES)
+        },
         ..defaults
     })
 }

@@ -6,7 +6,7 @@ use centrode::export::{ExportError, write_atomically};
 use centrode::meshing::{
     Direction, Drive, Dynamics, DynamicsOptions, MeshingReport, proving_runs, write_csv,
 };
-use centrode::report::{Plot, Section};
+use centrode::report::{ContactFrame, Plot, Section, contact_frames};
 
 use super::args::RunArgs;
 
@@ -156,6 +156,13 @@ pub(crate) fn plots(proof: &MeshingReport) -> Vec<Plot> {
         torque = torque.series(name, curve(run, &|s| s.windowed_torque));
     }
     vec![error, torque]
+}
+
+/// What the page draws on the turning gears: the contacts of the measuring run forward.
+pub(crate) fn contacts(proof: &MeshingReport, driver_cycle: f64) -> Vec<ContactFrame> {
+    let measured =
+        proof.runs.iter().find(|r| !is_motor(r) && r.options.direction == Direction::Forward);
+    measured.map(|run| contact_frames(run, driver_cycle)).unwrap_or_default()
 }
 
 /// The figures of a run for programs. Angles in radians, torque in N mm, lengths in mm.

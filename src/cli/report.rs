@@ -141,6 +141,16 @@ pub(crate) fn page(made: &Design) -> ReportData {
             .into_iter()
             .chain(made.proof.iter().flat_map(super::proof::plots))
             .collect(),
+        contacts: made
+            .proof
+            .as_ref()
+            .map(|p| {
+                super::proof::contacts(
+                    p,
+                    made.assembly.driver_angle.last().copied().unwrap_or_default(),
+                )
+            })
+            .unwrap_or_default(),
         notes,
     }
 }

@@ -100,6 +100,7 @@ fn page(saved: &SavedDesign, report: &MeshingReport) -> ReportData {
         },
         sections: std::iter::once(gears).chain(proof::sections(report)).collect(),
         plots: proof::plots(report),
+        contacts: proof::contacts(report, saved.driver_angle.last().copied().unwrap_or_default()),
         notes: report
             .faults
             .iter()

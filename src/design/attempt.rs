@@ -24,6 +24,16 @@ pub(super) struct Settings {
 }
 
 impl Settings {
+    /// The same with the lean held `k` steps below what these allow.
+    pub(super) fn with_less_lean(&self, k: usize) -> Self {
+        Self { max_lean: self.max_lean - k as f64 * policy::LEAN_REPAIR, ..*self }
+    }
+
+    /// Steepest lean allowed, radians.
+    pub(super) fn max_lean(&self) -> f64 {
+        self.max_lean
+    }
+
     /// The settings asked for, the number of teeth chosen if it was left open.
     pub(super) fn first(fit: &Fit, options: &DesignOptions) -> Result<Self, DesignError> {
         let transmission = &fit.transmission;
@@ -272,6 +282,11 @@ impl Attempt {
             }
         }
         Ok(())
+    }
+
+    /// What it was made with.
+    pub(super) fn settings(&self) -> Settings {
+        self.settings
     }
 
     /// 99th percentile of the transmission error without clearance, in pitches.

@@ -71,6 +71,9 @@ impl Design {
     /// See [`DynamicsError`].
     pub fn simulate(&mut self, runs: &[DynamicsOptions]) -> Result<(), DynamicsError> {
         let [driver, follower] = &self.assembly.gears[..] else { return Ok(()) };
+        if runs.is_empty() {
+            return Ok(());
+        }
         let transmission = &self.centrodes.transmission;
         let contact = ContactInput {
             driver: &driver.gear.outline,
@@ -142,7 +145,33 @@ pub fn design(
             }
         }
     }
-    best.confirmed(options)?.finish([driver, follower], fit, options, steps)
+    let settings = best.settings();
+    let best = best.confirmed(options)?;
+    let mut made = best.finish([driver, follower], fit.clone(), options, steps.clone())?;
+    if made.is_sound() {
+        made.simulate(&options.runs)?;
+    }
+    for k in 1..=if options.repair && made.proof.is_some() { policy::PROOF_REPAIRS } else { 0 } {
+        if made.is_sound() {
+            break;
+        }
+        let gentler = settings.with_less_lean(k);
+        let attempt = Attempt::make(&fit, options, gentler)?.confirmed(options)?;
+        let mut steps = steps.clone();
+        steps.push(format!(
+            "lean held to {:.0} degrees, for the first pair failed when it was run: {}",
+            gentler.max_lean().to_degrees(),
+            made.faults.join("; ")
+        ));
+        let mut next = attempt.finish([driver, follower], fit.clone(), options, steps)?;
+        if next.is_sound() {
+            next.simulate(&options.runs)?;
+        }
+        if next.is_sound() {
+            made = next;
+        }
+    }
+    Ok(made)
 }
 
 fn check(options: &DesignOptions) -> Result<(), DesignError> {

@@ -2,6 +2,7 @@
 
 use crate::fit::{FitError, FitOptions, LimitError, Ratio};
 use crate::meshing::ContactError;
+use crate::meshing::{DynamicsError, DynamicsOptions};
 use crate::pitch::TransmissionError;
 use crate::solid::{Bore, SolidError};
 use crate::teeth::TeethError;
@@ -81,6 +82,9 @@ pub struct DesignOptions {
     pub carve_with_solids: bool,
     /// Whether gentler settings may be tried when the first pair is not good.
     pub repair: bool,
+    /// Rigid-body runs that the finished pair must pass; none by default. With `repair`, gentler
+    /// settings are tried when it does not.
+    pub runs: Vec<DynamicsOptions>,
 }
 
 impl DesignOptions {
@@ -106,6 +110,7 @@ impl DesignOptions {
             bore: BoreChoice::AtMost(5.0),
             carve_with_solids: false,
             repair: true,
+            runs: Vec::new(),
         }
     }
 }
@@ -123,6 +128,9 @@ pub enum DesignError {
         /// What would be accepted.
         remedy: String,
     },
+    /// The pair cannot be run as rigid bodies.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
     /// No motion fits the shapes.
     #[error(transparent)]
     Fit(#[from] FitError),

@@ -8,6 +8,7 @@
 use super::contact::{ContactError, ContactInput, ContactOptions, ContactPose, poses_at};
 use super::partition::PartitionError;
 use super::summary::WorstPlace;
+use super::touches::Touches;
 use super::world::{World, WorldInput};
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
@@ -178,6 +179,8 @@ pub struct Dynamics {
     pub steps: Vec<Step>,
     /// The figures to judge by.
     pub summary: DynamicsSummary,
+    /// Contacts and forces of the first cycle, [`policy::TOUCHES_PER_TOOTH`] times a tooth.
+    pub touches: Vec<Touches>,
     /// Why it ended early, if it did.
     pub stopped: Option<Stop>,
 }
@@ -375,6 +378,10 @@ fn over_cycle(pair: &ContactInput<'_>) -> impl Iterator<Item = f64> {
 /// Collects steps and turns them into a [`Dynamics`].
 struct Recorder {
     steps: Vec<Step>,
+    touches: Vec<Touches>,
+    /// Steps from one entry of `touches` to the next.
+    touch_stride: usize,
+    driver_cycle: f64,
     same_tooth: f64,
     load: f64,
     work_in: f64,
@@ -385,6 +392,9 @@ impl Recorder {
     fn new(pair: &ContactInput<'_>, options: &DynamicsOptions) -> Self {
         Self {
             steps: Vec::new(),
+            touches: Vec::new(),
+            touch_stride: (options.steps_per_tooth / policy::TOUCHES_PER_TOOTH).max(1) as usize,
+            driver_cycle: pair.driver_cycle,
             same_tooth: policy::SAME_TOOTH_DISTANCE * pair.module,
             load: options.load,
             work_in: 0.0,
@@ -403,6 +413,11 @@ impl Recorder {
             if teeth.iter().all(|p| (p - contact.point).norm() > self.same_tooth) {
                 teeth.push(contact.point);
             }
+        }
+        let first_cycle = (0.0..self.driver_cycle).contains(&driver_angle);
+        if first_cycle && self.steps.len().is_multiple_of(self.touch_stride) {
+            let touches = Touches::new(driver_angle, &contacts, self.same_tooth, self.load);
+            self.touches.push(touches);
         }
         if let Some(last) = self.steps.last() {
             self.work_in += driver_torque * (driver_angle - last.driver_angle);
@@ -444,7 +459,7 @@ impl Recorder {
         }
         contact_angles(input, options, &mut steps)?;
         let summary = summarise(input, options, &steps);
-        Ok(Dynamics { options: *options, steps, summary, stopped })
+        Ok(Dynamics { options: *options, steps, summary, touches: self.touches, stopped })
     }
 }
 
@@ -568,6 +583,7 @@ impl Dynamics {
             step.psi = -step.psi;
             step.contact_angle = step.contact_angle.map(|a| -a);
         }
+        self.touches.iter_mut().for_each(Touches::turn_back);
         let s = &mut self.summary;
         let places = [
             &mut s.tracking_worst,

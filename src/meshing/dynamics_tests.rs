@@ -57,3 +57,33 @@ fn bad_options_are_refused() {
     let input = DynamicsInput { contact: pair, driver_teeth: 8 };
     assert!(matches!(simulate(&input, &options), Err(DynamicsError::Option { name: "load", .. })));
 }
+
+#[test]
+fn the_forces_between_the_teeth_balance_the_load_along_the_line_of_action() {
+    for (direction, sign) in [(Direction::Forward, -1.0), (Direction::Backward, 1.0)] {
+        let options =
+            DynamicsOptions { friction: 0.0, cycles: 0.5, direction, ..Default::default() };
+        let run = run_spurs(&options);
+        assert!(run.touches.len() >= 12 * 8, "{}", run.touches.len());
+        let axis = Point::new(56.0, 0.0);
+        let moments: Vec<f64> = run
+            .touches
+            .iter()
+            .map(|t| t.points.iter().map(|(p, force)| cross(p - axis, *force)).sum())
+            .collect();
+        let mean = moments.iter().sum::<f64>() / moments.len() as f64;
+        assert!((mean / (sign * options.load) - 1.0).abs() < 0.03, "{mean}");
+        // Without friction every force lies on the common tangent of the base circles, through the
+        // pitch point and 20 degrees off the tangent of the pitch circles.
+        let along = Vector::new(20_f64.to_radians().sin(), -sign * 20_f64.to_radians().cos());
+        for touches in &run.touches {
+            assert!(touches.driver_angle * sign <= 0.0, "{touches:?}");
+            for (point, force) in &touches.points {
+                assert!(cross(along, force.normalize()).abs() < 1_f64.to_radians(), "{force:?}");
+                assert!(along.dot(force) > 0.0, "{force:?}");
+                let off = cross(along, point - Point::new(24.0, 0.0));
+                assert!(off.abs() < 0.05, "{off} mm at {point:?}");
+            }
+        }
+    }
+}

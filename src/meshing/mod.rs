@@ -13,6 +13,7 @@ mod play;
 mod spur;
 mod summary;
 mod surface;
+mod touches;
 mod verdict;
 mod world;
 
@@ -29,4 +30,5 @@ pub use gap::{Gap, GapFinder};
 pub use motion::{MotionError, SampledMotion};
 pub use partition::{PartitionError, convex_partition};
 pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};
+pub use touches::Touches;
 pub use verdict::{Limits, MeshingReport, Reason, Verdict, judge, prove, proving_runs};

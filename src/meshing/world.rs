@@ -47,6 +47,8 @@ pub(super) struct WorldContact {
     pub(super) distance: f64,
     /// Moment about the driver's axis that the follower exerts here, over the load.
     pub(super) moment: f64,
+    /// Force on the follower over the load, 1/mm.
+    pub(super) force: geometry::Vector,
     /// Whether it carries load.
     pub(super) loaded: bool,
 }
@@ -209,6 +211,8 @@ impl World {
         let Some(pose) = self.bodies.get(self.gears[0]).map(|b| *b.position()) else {
             return Vec::new();
         };
+        // From the driver's impulse to the follower's force, over the load and per mm.
+        let unit = -self.scale / (self.parameters.dt * self.load);
         let mut found = Vec::new();
         for manifold in rigid.solver_manifolds() {
             let push = -manifold.data.normal;
@@ -225,6 +229,7 @@ impl World {
                     point: Point::new(arm.x, arm.y) / self.scale,
                     distance: contact.dist / self.scale,
                     moment: moment / self.load,
+                    force: geometry::Vector::new(impulse.x, impulse.y) * unit,
                     loaded: data.impulse > 0.0,
                 });
             }

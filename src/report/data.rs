@@ -43,8 +43,30 @@ pub struct ReportData {
     pub sections: Vec<Section>,
     /// Plots, in the order shown.
     pub plots: Vec<Plot>,
+    /// Contacts drawn on the turning gears, by rising driver angle; empty where none are known.
+    pub contacts: Vec<ContactFrame>,
     /// Warnings and steps, in the order they happened.
     pub notes: Vec<Note>,
+}
+
+/// Where the teeth touch at one driver angle.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ContactFrame {
+    /// Driver angle, radians, within one cycle.
+    pub driver_angle: f64,
+    /// One for each pair of teeth that carries load; none where contact is lost.
+    pub touches: Vec<Touch>,
+}
+
+/// A contact and its force.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Touch {
+    /// World position, mm.
+    pub x: f64,
+    /// World position, mm.
+    pub y: f64,
+    /// Force on the follower over the greatest usual one of the run, 0 to 1 long.
+    pub force: [f64; 2],
 }
 
 /// A headed table of numbers.

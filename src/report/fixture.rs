@@ -129,6 +129,7 @@ pub(super) fn report() -> ReportData {
                 .series("forward", over(&|p| 0.02 * (36.0 * p).sin() * slope(p)))
                 .series("backward", over(&|p| -0.05 + 0.015 * (36.0 * p).cos())),
         ],
+        contacts: Vec::new(),
         notes: vec![
             Note::new(
                 NoteKind::Warning,

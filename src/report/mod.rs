@@ -4,6 +4,7 @@
 //! data into a `String`; writing it to a file is the caller's affair. No
 //! function panics: values that are not finite are left out of the drawing.
 
+mod contacts;
 mod data;
 mod page;
 mod picture;
@@ -12,7 +13,10 @@ mod sheet;
 mod text;
 mod thin;
 
-pub use data::{Limit, Note, NoteKind, Plot, ReportData, Row, Section, Series, Verdict};
+pub use contacts::contact_frames;
+pub use data::{
+    ContactFrame, Limit, Note, NoteKind, Plot, ReportData, Row, Section, Series, Touch, Verdict,
+};
 pub use page::report_html;
 pub use picture::{PictureOptions, pair_svg};
 pub use sheet::contact_sheet_svg;

@@ -86,6 +86,45 @@
     return [between(a.axis[0], b.axis[0], part), between(a.axis[1], b.axis[1], part)];
   };
 
+  const contacts = {
+    frames: data.contacts,
+    force: all(".contacts .halo, .contacts .force", svg),
+    touch: svg.querySelector(".contacts .touch"),
+  };
+  contacts.apart = contacts.frames.length > 1
+    ? (contacts.frames[contacts.frames.length - 1][0] - contacts.frames[0][0]) / (contacts.frames.length - 1)
+    : cycle;
+  byId("contacts").hidden = !contacts.frames.length;
+
+  // The contacts of the nearest moment, turned with the driver so that they stay on its flanks.
+  const showContacts = () => {
+    let nearest = null;
+    let distance = Infinity;
+    for (const frame of contacts.frames) {
+      const apart = Math.abs(angle - frame[0]);
+      const round = Math.min(apart, cycle - apart);
+      if (round < distance) [nearest, distance] = [frame, round];
+    }
+    // Where the run has not been, nothing is known.
+    if (distance > contacts.apart) nearest = null;
+    let dots = "";
+    let lines = "";
+    const length = data.force_length * (near ? data.close_up : data.view[2]);
+    const turn = nearest ? angle - nearest[0] : 0;
+    const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+    const [left, low] = turning[0].axis;
+    const text = (v) => v.toFixed(4);
+    for (let i = 1; nearest && i + 3 < nearest.length; i += 4) {
+      const [x, y, forceX, forceY] = nearest.slice(i, i + 4);
+      const at = [left + cos * (x - left) - sin * (y - low), low + sin * (x - left) + cos * (y - low)];
+      const start = `M${at.map(text).join(" ")}`;
+      dots += `${start}h0`;
+      lines += `${start}l${text(length * forceX)} ${text(length * forceY)}`;
+    }
+    contacts.touch.setAttribute("d", dots);
+    for (const path of contacts.force) path.setAttribute("d", lines);
+  };
+
   let angle = 0;
   let near = false;
   const show = () => {
@@ -103,6 +142,7 @@
       const box = [x - width / 2, -y - height / 2, width, height];
       svg.setAttribute("viewBox", box.map((v) => v.toFixed(4)).join(" "));
     }
+    if (contacts.frames.length) showContacts();
     for (const plot of plots) showPlot(plot, angle / DEGREE);
     slider.value = String(angle / DEGREE);
     slider.setAttribute("aria-valuetext", `${(angle / DEGREE).toFixed(1)} degrees`);

@@ -1,12 +1,15 @@
 //! One self-contained page on which the gears turn.
 
+use super::contacts;
 use super::data::{NoteKind, ReportData, Row, Section, Verdict};
 use super::plot::Scaled;
 use super::text::{Grid, escape, json_for_script, plain};
 use super::thin::thin_ring;
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::geometry::{self, Point};
-use crate::policy::{CLOSE_UP_PITCHES, PAGE_DIGITS, PAGE_MOTION_NUMBERS, PAGE_POINTS};
+use crate::policy::{
+    CLOSE_UP_PITCHES, PAGE_DIGITS, PAGE_FORCE_LENGTH, PAGE_MOTION_NUMBERS, PAGE_POINTS,
+};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -20,7 +23,7 @@ const POLICY: &str =
 /// The page: turning gears, numbers, plots and notes in one HTML document.
 ///
 /// Needs no network and no other file. Outlines and curves finer than a screen can show
-/// are thinned, so that the page stays below about 1.5 MB. Without scripts it shows the first pose.
+/// are thinned, and long lists of contacts too, so that the page stays below about 1.5 MB. Without scripts it shows the first pose.
 /// Opened as `report.html#angle=90` it stands still with the driver at 90 degrees.
 #[must_use]
 pub fn report_html(assembly: &Assembly, data: &ReportData) -> String {
@@ -56,6 +59,7 @@ pub fn report_html(assembly: &Assembly, data: &ReportData) -> String {
         "verdict": data.verdict, "summary": data.summary,
         "sections": data.sections, "notes": data.notes,
         "motion": stage.motion(assembly), "view": stage.view, "close_up": stage.close_up,
+        "contacts": contacts::block(&data.contacts, stage.grid), "force_length": PAGE_FORCE_LENGTH,
         "plots": plots.iter().map(Scaled::json).collect::<Vec<_>>(),
     });
     let _ = write!(
@@ -308,10 +312,9 @@ impl Stage {
             out,
             "<g class=\"layer axes\"><path class=\"light\" d=\"{line}\"/>\
              <path class=\"centers\" d=\"{line}\"/><path class=\"halo\" d=\"{marks}\"/>\
-             <path d=\"{marks}\"/></g>
-</g>
-</svg>
-"
+             <path d=\"{marks}\"/></g>\n\
+             <g class=\"layer contacts\"><path class=\"halo\"/><path class=\"force\"/><path class=\"touch\"/></g>\n\
+             </g>\n</svg>\n"
         );
         self.caption(assembly, ruled, out);
         out.push_str(CONTROLS);
@@ -347,6 +350,7 @@ const CONTROLS: &str = r#"<div class="controls" hidden>
 <label><input type="checkbox" data-layer="input" checked> drawings</label>
 <label><input type="checkbox" data-layer="pitch" checked> pitch curves</label>
 <label><input type="checkbox" data-layer="axes" checked> axes</label>
+<label id="contacts" title="Where the teeth press on each other, and the force on the follower; the longest line is the greatest usual force of the run" hidden><input type="checkbox" data-layer="contacts" checked> contact and forces</label>
 <label><input type="checkbox" id="close-up"> close-up of the mesh</label>
 </fieldset>
 </div>
@@ -365,7 +369,7 @@ fn ruling(extent: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Note, Plot, fixture};
+    use super::super::{ContactFrame, Note, Plot, Touch, fixture};
     use super::*;
 
     fn page() -> String {
@@ -411,6 +415,24 @@ mod tests {
                     < 1e-3 * (0.5 * f).tan().abs().max(1.0)
             );
         }
+    }
+
+    #[test]
+    fn the_contacts_are_in_the_page_and_hidden_where_there_are_none() {
+        assert_eq!(block(&page())["contacts"], json!([]));
+        let touch = |x, y| Touch { x, y, force: [-0.342_02, 0.939_69] };
+        let mut data = fixture::report();
+        data.contacts = vec![
+            ContactFrame { driver_angle: 0.032_725, touches: vec![touch(39.123_456, -1.5)] },
+            ContactFrame { driver_angle: 0.065_46, touches: Vec::new() },
+        ];
+        let html = report_html(&fixture::ellipses(), &data);
+        let wanted = json!([[0.0327, 39.123, -1.5, -0.342, 0.9397], [0.0655]]);
+        assert_eq!(block(&html)["contacts"], wanted);
+        // The script shows the switch; without contacts, or without scripts, nobody sees it.
+        let (_, switch) = html.split_once("<label id=\"contacts\"").expect("the switch");
+        assert!(switch.split_once('>').is_some_and(|(tag, _)| tag.ends_with(" hidden")));
+        assert!(html.contains("<g class=\"layer contacts\">"));
     }
 
     #[test]

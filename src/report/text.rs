@@ -89,6 +89,11 @@ impl Grid {
         }
     }
 
+    /// The value on the grid nearest to `value`; zero for what is not finite.
+    pub(super) fn rounded(self, value: f64) -> f64 {
+        self.snap(value) as f64 / 10f64.powi(self.decimals as i32)
+    }
+
     /// `value` on the grid, in as few characters as it needs.
     pub(super) fn number(self, value: f64) -> String {
         let mut out = String::new();

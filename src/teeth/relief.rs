@@ -10,7 +10,7 @@
 use super::carve::carve_at;
 use super::profile::{EdgeKind, Profile};
 use super::rolling::Instant;
-use crate::geometry::{Vector, cross, quarter_turn};
+use crate::geometry::{self, Point, Vector, cross, quarter_turn};
 use crate::outline::simplify;
 use crate::pitch::Centrodes;
 use crate::policy;
@@ -83,12 +83,20 @@ pub fn relieved(
     if places == 0 {
         return None;
     }
+    let outline = without_slivers(&outline, policy::RELIEF_SLIVER * module)?;
     let follower = follower
         .relabelled(simplify(&outline, policy::RELIEF_CHORD * module))
         .without_short_edges(policy::SHORTEST_EDGE * module)
         .repeated(t.follower_fold(), policy::FOLD_MATCH * module)
         .untangled()?;
     Some(Relieved { follower, places, worst })
+}
+
+/// The outline without walls thinner than twice `reach`: moved inward and out again.
+fn without_slivers(outline: &[Point], reach: f64) -> Option<Vec<Point>> {
+    let ring = |faces: Vec<Vec<Vec<Point>>>| geometry::largest(faces)?.into_iter().next();
+    let inner = ring(geometry::offset(outline, -reach, policy::BODY_CHORD))?;
+    ring(geometry::offset(&inner, reach, policy::BODY_CHORD))
 }
 
 /// The least play at or above `plays` that changes no faster than [`policy::RELIEF_RATE`] of the
@@ -191,7 +199,6 @@ mod tests {
 
     #[test]
     fn lowered_tips_leave_the_flanks_in_line() {
-        use crate::geometry::Point;
         let tooth = [(0.0, 0.0), (4.0, 0.0), (3.0, 2.0), (1.0, 2.0)];
         let profile = Profile {
             points: tooth.iter().map(|&(x, y)| Point::new(x, y)).collect(),
