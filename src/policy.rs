@@ -668,6 +668,11 @@ pub const COUNT_BLUR: f64 = 0.42;
 pub const COUNT_HYSTERESIS: f64 = 0.3;
 /// Median stray of the middle line's radius, as a share, up to which a gear counts as round.
 pub const ROUND_STRAY: f64 = 0.008;
+/// Distance of neighbouring teeth, in typical ones, from which a stretch counts as toothless.
+pub const TOOTHLESS_FROM: f64 = 2.5;
+/// Share by which the length of a toothless stretch tells its teeth wrongly: cut straight across
+/// a bend it is shorter than the roots were.
+pub const TOOTHLESS_DOUBT: f64 = 0.08;
 /// Directions at which the radius of a middle line is kept.
 pub const RADIUS_SAMPLES: usize = 2048;
 /// Places on a follower's pitch at which a gap for the driver's teeth is looked for.

@@ -185,8 +185,8 @@ struct Ring {
 /// Reads a finished gear.
 ///
 /// `source` is a path, or a folder that holds a `design.json`. Where a file holds both gears of a
-/// pair (a `design.json`, an OBJ with objects `driver` and `follower`), `role` picks one, or
-/// `#driver`, `#follower` behind the path does. The largest closed contour is the gear, contours in
+/// pair (a `design.json`, an OBJ with objects or a DXF with layers `driver` and `follower`), `role`
+/// picks one, or `#driver`, `#follower` behind the path does. The largest closed contour is the gear, contours in
 /// it are holes. Units: SVG with a size in mm, cm, in and the like has that scale, without one
 /// a unit of its view box is 1 mm; DXF by its header, mm without one; all else mm. Curves are
 /// flattened to [`policy::TOOTHED_CHORD`]; outlines of more than
@@ -313,10 +313,11 @@ fn assemble(rings: Vec<Ring>, path: &str) -> Result<Toothed, ToothedError> {
     let boundary = rings.next().map(|r| r.points).unwrap_or_default();
     let (boundary, thinned) = thinned(boundary).map_err(failed)?;
     let outline = Outline::new(boundary).map_err(failed)?;
-    // A contour that does not enclose an area is no hole; decorations are no business of ours.
+    // A contour that encloses no area or crosses the gear's boundary, as a pitch curve does, is no
+    // hole; decorations are no business of ours.
     let mut holes: Vec<Outline> = rings
         .filter_map(|r| Outline::new(thinned_hole(r.points)).ok())
-        .filter(|hole| outline.contains(hole.points()[0]) && outline.contains(hole.centroid()))
+        .filter(|hole| hole.points().iter().all(|p| outline.contains(*p)))
         .collect();
     holes.sort_by(|a, b| b.area().total_cmp(&a.area()));
     Ok(Toothed { outline, holes, thinned, record: None })
