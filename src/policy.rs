@@ -698,6 +698,8 @@ pub const TRACE_WIDEST: f64 = 0.8;
 pub const TRACE_WIDE: f64 = 0.06;
 /// Half the window, in driver teeth, over which the traced motion is smoothed.
 pub const TRACE_WINDOW: f64 = 1.3;
+/// Share of a gap on either side that the smoothed motion keeps off the flanks.
+pub const TRACE_MARGIN: f64 = 0.1;
 /// Share of a trace that must be believed to make a motion.
 pub const TRACE_SHARE: f64 = 0.5;
 /// Longest cycle that is checked, driver turns: longer ones take minutes.

@@ -174,7 +174,7 @@ fn a_silhouette_pair_meshes_by_its_outlines_alone_and_fails_spoiled() {
     assert_eq!(said["motion_source"], "contact");
     assert!((number(&said["phase"]) - 1.0).abs() < 0.01, "{}", said["phase"]);
     for (kind, reasons) in [
-        ("8_teeth_removed", ["contact_lost", "swing"]),
+        ("8_teeth_removed", ["contact_lost", "slipped"]),
         ("two_teeth_merged", ["overlap", "jam"]),
         ("lump_in_a_gap", ["overlap", "jam"]),
     ] {

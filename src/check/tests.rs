@@ -64,7 +64,11 @@ fn missing_teeth_are_made_up_for() {
 #[test]
 fn a_doubtful_count_settles_for_the_simplest_ratio() {
     let whole = counted(32, 0.1, 0, 0);
-    let doubtful = |count, least, most| Teeth { count, likely: (least, most), ..whole.clone() };
+    let doubtful = |count, least, most| {
+        let mut teeth = whole.clone();
+        (teeth.count, teeth.likely) = (count, (least, most));
+        teeth
+    };
     for (first, second, settled) in [
         (doubtful(31, 30, 32), doubtful(32, 32, 32), [32, 32]),
         (doubtful(24, 24, 24), doubtful(49, 47, 50), [24, 48]),

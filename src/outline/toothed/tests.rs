@@ -89,7 +89,8 @@ fn a_rational_spline_is_the_circle_that_it_stands_for() {
     (70..=71).for_each(|code| put(code, if code == 70 { 5.0 } else { 2.0 }));
     put(72, 12.0);
     put(73, 9.0);
-    [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0].map(|k| put(40, k));
+    let knots = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
+    knots.into_iter().for_each(|k| put(40, k));
     let corner = [(3.0, 0.0), (3.0, 3.0), (0.0, 3.0), (-3.0, 3.0), (-3.0, 0.0)];
     let rest = [(-3.0, -3.0), (0.0, -3.0), (3.0, -3.0), (3.0, 0.0)];
     for (i, (x, y)) in corner.into_iter().chain(rest).enumerate() {
@@ -175,6 +176,18 @@ fn solids_are_cut_at_half_their_thickness() {
         stl += "endloop\nendfacet\n";
     }
     section(&read("a.stl", stl + "endsolid a\n", "").unwrap());
+}
+
+#[test]
+fn a_fold_of_no_width_is_taken_out_and_it_is_said() {
+    let with_fold = |tip: &str| format!("0,0\n5,0\n5,5\n2,5\n{tip}\n1.9,5\n0,5\n");
+    let gear = read("a.csv", with_fold("1.8,5.000002"), "").unwrap();
+    near(gear.outline.area(), 25.0);
+    let crossing = read("a.csv", with_fold("1.8,5.000002\n1.95,4.999998"), "").unwrap();
+    near(crossing.outline.area(), 25.0);
+    assert!(crossing.thinned.is_some_and(|t| t.tolerance < 1e-4));
+    let error = read("a.csv", with_fold("1,6\n3,6"), "").unwrap_err();
+    assert!(matches!(error, ToothedError::Outline { .. }), "{error}");
 }
 
 #[test]
