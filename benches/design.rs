@@ -4,12 +4,14 @@
 use std::hint::black_box;
 use std::time::Duration;
 
+use centrode::assembly::Gear;
+use centrode::check::{CheckOptions, check, default_runs};
 use centrode::design::{DesignOptions, ToothCount, design};
 use centrode::export::{Export, Glb, Obj, Parts, Stl, write_json};
 use centrode::fit::{self, FitOptions, Ratio, Search};
 use centrode::geometry::Point;
-use centrode::meshing::{ContactInput, ContactOptions, analyse};
-use centrode::outline::{LoadOptions, Shape, Smoothing, load, smooth};
+use centrode::meshing::{ContactInput, ContactOptions, DynamicsOptions, analyse};
+use centrode::outline::{LoadOptions, Outline, Shape, Smoothing, Toothed, load, smooth};
 use centrode::pitch::{Centrodes, PolarCurve, Transmission};
 use centrode::report::{PictureOptions, pair_svg};
 use centrode::solid::assembly_solids;
@@ -109,6 +111,23 @@ fn whole(c: &mut Criterion) {
     let made = design(&shapes[0], &shapes[1], &options).expect("a pair");
     let mut group = c.benchmark_group("design");
     group.bench_function("solids", |b| b.iter(|| assembly_solids(black_box(&made.assembly))));
+    let finished = |i: usize| {
+        let gear: &Gear = &made.assembly.gears[i].gear;
+        let outline = Outline::new(gear.outline.clone()).expect("a simple outline");
+        Toothed { outline, holes: Vec::new(), thinned: None, record: None }
+    };
+    let finished = [finished(0), finished(1)];
+    for (name, runs) in [
+        ("check by contact", Vec::new()),
+        ("check with a run", default_runs(&DynamicsOptions::default(), false)),
+    ] {
+        let options = CheckOptions {
+            center_distance: Some(made.assembly.gears[1].axis.x),
+            runs,
+            ..CheckOptions::default()
+        };
+        group.bench_function(name, |b| b.iter(|| check(&finished[0], &finished[1], &options)));
+    }
     let folder = tempfile::tempdir().expect("a folder to write to");
     group.bench_function("whole, with all files", |b| {
         b.iter(|| {

@@ -668,6 +668,11 @@ pub const COUNT_BLUR: f64 = 0.42;
 pub const COUNT_HYSTERESIS: f64 = 0.3;
 /// Median stray of the middle line's radius, as a share, up to which a gear counts as round.
 pub const ROUND_STRAY: f64 = 0.008;
+/// Distance of neighbouring teeth, in typical ones, from which a stretch counts as toothless.
+pub const TOOTHLESS_FROM: f64 = 2.5;
+/// Share by which the length of a toothless stretch tells its teeth wrongly: cut straight across
+/// a bend it is shorter than the roots were.
+pub const TOOTHLESS_DOUBT: f64 = 0.08;
 /// Directions at which the radius of a middle line is kept.
 pub const RADIUS_SAMPLES: usize = 2048;
 /// Places on a follower's pitch at which a gap for the driver's teeth is looked for.
@@ -693,6 +698,8 @@ pub const TRACE_WIDEST: f64 = 0.8;
 pub const TRACE_WIDE: f64 = 0.06;
 /// Half the window, in driver teeth, over which the traced motion is smoothed.
 pub const TRACE_WINDOW: f64 = 1.3;
+/// Share of a gap on either side that the smoothed motion keeps off the flanks.
+pub const TRACE_MARGIN: f64 = 0.1;
 /// Share of a trace that must be believed to make a motion.
 pub const TRACE_SHARE: f64 = 0.5;
 /// Longest cycle that is checked, driver turns: longer ones take minutes.

@@ -61,7 +61,7 @@ pub enum CheckError {
     Motion(#[from] MotionFileError),
     /// The cycle is too long.
     #[error(
-        "{driver} and {follower} teeth meet as before only after {turns} turns of the driver, more than {limit}; give --ratio or --motion"
+        "{driver} and {follower} teeth meet as before only after {turns} turns of the driver, more than {limit}; give --teeth N,M if they are counted wrongly, else --ratio or --motion"
     )]
     LongCycle {
         /// Teeth of the driver.

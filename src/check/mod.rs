@@ -215,7 +215,9 @@ fn set_up(
     };
     let (first, second) = rayon::join(|| counted(0), || counted(1));
     let [driver, follower] = outlines;
-    Ok(Pair::new(driver, follower, center_distance, [first?, second?]))
+    let mut teeth = [first?, second?];
+    teeth::settle(&mut teeth);
+    Ok(Pair::new(driver, follower, center_distance, teeth))
 }
 
 /// The law that contact tells; round gears turn evenly.

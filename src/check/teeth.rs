@@ -1,5 +1,6 @@
 //! Teeth counted on an outline of which nothing else is known.
 
+use super::pair::gcd;
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 use realfft::RealFftPlanner;
@@ -10,6 +11,8 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug)]
 pub(super) struct Teeth {
     pub(super) count: u32,
+    /// Fewest and most teeth that the outline may have had: `count`, unless a long stretch has none.
+    pub(super) likely: (u32, u32),
     /// Distance of neighbouring teeth along the middle line, mm.
     pub(super) pitch: f64,
     /// Whether the middle line is a circle about the axis.
@@ -34,7 +37,8 @@ impl Teeth {
 ///
 /// The direction of the boundary, seen along its length, swings with the teeth: the strongest
 /// frequency gives their scale, a blur of that scale the middle line, and the crossings of the middle
-/// line the teeth. Teeth that are missing or merged are made up for by their spacing.
+/// line the teeth. Teeth that are missing or merged are made up for by their spacing: where there
+/// are none the middle line runs along the roots, and is measured where it would run with teeth.
 pub(super) fn teeth(outline: &[Point], given: Option<u32>) -> Option<Teeth> {
     let points = evenly(outline);
     let mut scale = given.map_or_else(|| strongest_frequency(&points), |n| n as usize);
@@ -64,11 +68,29 @@ pub(super) fn teeth(outline: &[Point], given: Option<u32>) -> Option<Teeth> {
         length[i] + (s - i as f64) * (length[i + 1] - length[i])
     };
     let along: Vec<f64> = rises.iter().map(|&s| at(s)).collect();
-    let spacing = spacings(&along, total);
-    let (counted, pitch) = walked(&spacing)?;
-    let count = if round { by_angle(&middle, &rises).unwrap_or(counted) } else { counted };
-    let count = given.unwrap_or(count);
-    Some(Teeth { count, pitch, round, radius: radius_table(&middle) })
+    let spacing = raised(spacings(&along, total), &points, &middle, &rises)?;
+    let (counted, doubt, pitch) = walked(&spacing)?;
+    let radius = radius_table(&middle);
+    let whole = |count| Teeth { count, likely: (count, count), pitch, round, radius };
+    if let Some(count) = given.or_else(|| by_angle(&middle, &rises).filter(|_| round)) {
+        return Some(whole(count));
+    }
+    let likely = ((counted - doubt).round() as u32, (counted + doubt).round() as u32);
+    Some(Teeth { likely, ..whole(counted.round() as u32) })
+}
+
+/// Settles counts that a toothless stretch leaves in doubt: both gears come round after few turns,
+/// so of the counts that are likely those with the simplest ratio hold, and of these the nearest.
+pub(super) fn settle(teeth: &mut [Teeth; 2]) {
+    let [first, second] = [&teeth[0], &teeth[1]];
+    let turns = |a: u32, b: u32| (a + b) / gcd(a, b).max(1);
+    let off = |a: u32, b: u32| a.abs_diff(first.count) + b.abs_diff(second.count);
+    let pairs = (first.likely.0..=first.likely.1)
+        .flat_map(|a| (second.likely.0..=second.likely.1).map(move |b| (a, b)));
+    if let Some((a, b)) = pairs.min_by_key(|&(a, b)| (turns(a, b), off(a, b))) {
+        teeth[0].count = a;
+        teeth[1].count = b;
+    }
 }
 
 /// Points at even distances along the boundary.
@@ -145,16 +167,22 @@ fn blurred(points: &[Point], width: f64) -> Vec<Point> {
     x.into_iter().zip(y).map(|(x, y)| Point::new(x, y)).collect()
 }
 
-/// Places (fractional indices) where the boundary rises through its middle line.
-fn rises(points: &[Point], middle: &[Point]) -> Vec<f64> {
+/// Height of the boundary above its middle line, mm.
+fn heights(points: &[Point], middle: &[Point]) -> Vec<f64> {
     let n = points.len();
-    let height: Vec<f64> = (0..n)
+    (0..n)
         .map(|i| {
             let along = middle[(i + 1) % n] - middle[(i + n - 1) % n];
             let outward = Vector::new(along.y, -along.x).try_normalize(0.0);
             (points[i] - middle[i]).dot(&outward.unwrap_or_else(Vector::zeros))
         })
-        .collect();
+        .collect()
+}
+
+/// Places (fractional indices) where the boundary rises through its middle line.
+fn rises(points: &[Point], middle: &[Point]) -> Vec<f64> {
+    let n = points.len();
+    let height = heights(points, middle);
     let mean = height.iter().map(|h| h.abs()).sum::<f64>() / n as f64;
     let least = policy::COUNT_HYSTERESIS * mean;
     let Some(start) = height.iter().position(|h| *h < -least) else { return Vec::new() };
@@ -177,6 +205,40 @@ fn rises(points: &[Point], middle: &[Point]) -> Vec<f64> {
     rises
 }
 
+/// Spacings with those of toothless stretches measured as far above the roots as elsewhere: the
+/// lengths of parallel curves differ by their distance times the turn.
+fn raised(
+    mut spacing: Vec<f64>,
+    points: &[Point],
+    middle: &[Point],
+    rises: &[f64],
+) -> Option<Vec<f64>> {
+    let n = points.len();
+    let typical = median(spacing.clone())?;
+    if spacing.iter().all(|s| *s < policy::TOOTHLESS_FROM * typical) {
+        return Some(spacing);
+    }
+    let height = heights(points, middle);
+    let between = |i: usize| {
+        let (from, to) = (rises[i] as usize, rises[(i + 1) % rises.len()] as usize);
+        from..if to > from { to } else { to + n }
+    };
+    let depth = |i: usize| between(i).map(|j| -height[j % n]).fold(0.0, f64::max);
+    let toothed = (0..spacing.len()).filter(|&i| spacing[i] < policy::TOOTHLESS_FROM * typical);
+    let depth = median(toothed.map(depth).collect())?;
+    let step = |j: usize| middle[(j + 1) % n] - middle[j % n];
+    for (i, space) in spacing.iter_mut().enumerate() {
+        if *space >= policy::TOOTHLESS_FROM * typical {
+            let turn: f64 = between(i)
+                .map(|j| (step(j), step(j + 1)))
+                .map(|(a, b)| cross(a, b).atan2(a.dot(&b)))
+                .sum();
+            *space += depth * turn;
+        }
+    }
+    Some(spacing)
+}
+
 /// Distances from each place to the next on a closed line of length `total`.
 fn spacings(places: &[f64], total: f64) -> Vec<f64> {
     let wrapped = places.first().map(|first| first + total);
@@ -184,17 +246,19 @@ fn spacings(places: &[f64], total: f64) -> Vec<f64> {
     places.iter().zip(next).map(|(a, b)| b - a).collect()
 }
 
-/// Teeth on a line whose distances are multiples of a pitch that changes slowly, and that pitch.
-fn walked(spacing: &[f64]) -> Option<(u32, f64)> {
+/// Teeth on a line whose distances are multiples of a pitch that changes slowly, by how many the
+/// count may be wrong, and that pitch.
+fn walked(spacing: &[f64]) -> Option<(f64, f64, f64)> {
     let n = spacing.len();
     let reach = 5.min(n / 2);
-    let mut count = 0.0;
+    let (mut count, mut doubt) = (0.0, 0.0_f64);
     let mut carried = 0.0;
     let mut single = Vec::new();
     for i in 0..n {
         let around = (i + n - reach..=i + n + reach).map(|j| spacing[j % n]).collect();
         let pitch = median(around)?;
-        let teeth = ((spacing[i] + carried) / pitch).round();
+        let pitches = (spacing[i] + carried) / pitch;
+        let teeth = pitches.round();
         if teeth == 0.0 {
             carried += spacing[i];
             continue;
@@ -204,9 +268,12 @@ fn walked(spacing: &[f64]) -> Option<(u32, f64)> {
         }
         carried = 0.0;
         count += teeth;
+        if teeth >= policy::TOOTHLESS_FROM {
+            doubt += (policy::TOOTHLESS_DOUBT * pitches).ceil();
+        }
     }
     let pitch = if single.is_empty() { median(spacing.to_vec())? } else { mean(&single) };
-    Some((count as u32, pitch))
+    Some((count, doubt, pitch))
 }
 
 /// Teeth of a round gear by the angle between neighbours.

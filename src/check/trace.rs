@@ -72,7 +72,8 @@ pub(super) fn traced(pair: &Pair, phase: Option<f64>) -> Result<Traced, Untraced
     if (turn - whole).abs() > 0.5 * pitch {
         return Err(Untraced::NotClosed { pitches: (turn - whole) / pitch });
     }
-    let follower = smoothed(pair, &trace.samples, whole);
+    let mut follower = smoothed(pair, &trace.samples, whole);
+    kept_clear(pair, &trace.samples, &mut follower, whole);
     let driver: Vec<f64> = trace.samples.iter().map(|s| s.driver_angle).collect();
     let psi: Vec<f64> = follower.iter().map(|f| f - follower[0]).collect();
     let motion = SampledMotion::new(&driver, &psi);
@@ -152,7 +153,10 @@ fn smoothed(pair: &Pair, samples: &[Sample], whole: f64) -> Vec<f64> {
                     (t, rest(s), (1.0 - t.abs().powi(3)).powi(3))
                 })
                 .collect();
+            // From one side alone a cubic would run away.
+            let ahead = window.iter().filter(|(t, ..)| *t >= 0.0).count();
             if window.len() > count
+                && ahead.min(window.len() - ahead) >= count.div_ceil(4)
                 && let Some(value) = cubic_at_zero(&window)
             {
                 return value;
@@ -164,6 +168,19 @@ fn smoothed(pair: &Pair, samples: &[Sample], whole: f64) -> Vec<f64> {
     let mut values: Vec<f64> = (0..n).into_par_iter().map(fit).collect();
     values.push(values[0]);
     values.iter().zip(samples).map(|(v, s)| v + mean * s.driver_angle).collect()
+}
+
+/// Moves what smoothing has pushed out of a gap back into it: contact would do so too.
+fn kept_clear(pair: &Pair, samples: &[Sample], follower: &mut [f64], whole: f64) {
+    follower.par_iter_mut().zip(samples).for_each(|(angle, sample)| {
+        if let Some(gap) = pair.gap(sample.driver_angle, *angle) {
+            let margin = policy::TRACE_MARGIN * (gap.to - gap.from);
+            let (least, most) = (gap.from + margin, gap.to - margin);
+            *angle = if least < most { angle.clamp(least, most) } else { gap.center() };
+        }
+    });
+    let last = follower.len() - 1;
+    follower[last] = follower[0] + whole;
 }
 
 /// Value at 0 of the cubic that fits (place, value, weight) best.

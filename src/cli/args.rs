@@ -121,8 +121,8 @@ pub(crate) struct CheckArgs {
     /// Speed of the driver, turns a minute
     #[arg(long, default_value_t = policy::DEFAULT_RPM, value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) rpm: f64,
-    /// Friction between the flanks, 0 to 2
-    #[arg(long, default_value_t = policy::DEFAULT_FRICTION, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
+    /// Friction between the flanks, 0 to 2; torque is judged without
+    #[arg(long, default_value_t = 0.0, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) friction: f64,
     /// Thickness of the gears
     #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]

@@ -259,7 +259,7 @@ fn without_specks(points: &[Point], shortest: f64) -> Vec<Point> {
 }
 
 /// Without vertices at which the outline turns back on itself within `width`.
-fn without_barbs(mut points: Vec<Point>, width: f64) -> Vec<Point> {
+pub(crate) fn without_barbs(mut points: Vec<Point>, width: f64) -> Vec<Point> {
     loop {
         let n = points.len();
         let barb = (0..n).find(|&i| {

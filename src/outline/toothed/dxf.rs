@@ -25,21 +25,32 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
             return Err(ToothedError::Unit { path: asked.path(), unit: format!("{other:?}") });
         }
     };
-    let skeletons: Vec<Vec<Piece>> = drawing
-        .entities()
-        .map(|e| pieces(&e.specific).map_err(|kind| (e, kind)))
-        .map(|made| made.map_err(|(_, kind)| ToothedError::Entity { path: asked.path(), kind }))
-        .collect::<Result<_, _>>()?;
-    let ends: Vec<Point> = skeletons.iter().flatten().flat_map(Piece::marks).collect();
-    let (low, high) = geometry::bounds(&ends);
+    let wanted = wanted_layer(&drawing, asked)?;
+    let mut skeletons: Vec<(&str, Vec<Piece>)> = Vec::new();
+    for entity in drawing.entities() {
+        let made = pieces(&entity.specific)
+            .map_err(|kind| ToothedError::Entity { path: asked.path(), kind })?;
+        skeletons.push((&entity.common.layer, made));
+    }
+    let extent = |of: &mut dyn Iterator<Item = &Piece>| {
+        geometry::bounds(&of.flat_map(Piece::marks).collect::<Vec<_>>())
+    };
+    let is_wanted = |layer: &str| wanted.is_none_or(|w| w == layer);
+    let on_layer = skeletons.iter().filter(|(layer, _)| is_wanted(layer));
+    let (low, high) = extent(&mut on_layer.flat_map(|(_, made)| made));
     let diagonal = (high - low).norm();
     if !(diagonal.is_finite() && diagonal > 0.0) {
         return Err(ToothedError::NoContour { path: asked.path() });
     }
+    // Of other layers what lies about the gear stays: bores may be there.
+    skeletons.retain(|(layer, made)| {
+        let (from, to) = extent(&mut made.iter());
+        is_wanted(layer) || (from >= low && to <= high)
+    });
     let chord = policy::TOOTHED_CHORD * diagonal;
     let mut rings = Vec::new();
     let mut open = Vec::new();
-    for skeleton in skeletons {
+    for (_, skeleton) in skeletons {
         let mut points: Vec<Point> = Vec::new();
         for piece in skeleton {
             let more = piece.flattened(chord);
@@ -58,6 +69,19 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
         ring.points.iter_mut().for_each(|p| p.coords *= scale);
     }
     Ok(rings)
+}
+
+/// The layer of the gear that is asked for, if there is one of its name.
+fn wanted_layer<'a>(
+    drawing: &dxf::Drawing,
+    asked: &Asked<'a>,
+) -> Result<Option<&'a str>, ToothedError> {
+    let exists = |name: &str| drawing.entities().any(|e| e.common.layer == name);
+    match asked.part {
+        Some(part) if !exists(part) => Err(asked.no_such_part(part)),
+        Some(part) => Ok(Some(part)),
+        None => Ok(Some(asked.role.name()).filter(|name| exists(name))),
+    }
 }
 
 /// A stretch of a curve, in the unit of the drawing.

@@ -10,6 +10,7 @@ mod spline;
 
 use super::load::read_file;
 use super::{LoadError, Outline, OutlineError, PointsError, SvgError, points, simplify};
+use crate::geometry::curves::without_barbs;
 use crate::geometry::{self, Point};
 use crate::policy;
 use std::path::Path;
@@ -41,13 +42,13 @@ pub struct Toothed {
     pub outline: Outline,
     /// Its holes, each counter-clockwise, the largest first.
     pub holes: Vec<Outline>,
-    /// How the boundary was thinned, if it had too many vertices.
+    /// How the boundary was thinned, if it had too many vertices or crossed itself by a hair.
     pub thinned: Option<Thinned>,
     /// What a `design.json` tells of the pair; its gears have their axes at the origin.
     pub record: Option<PairRecord>,
 }
 
-/// How a boundary of very many vertices was thinned.
+/// How a boundary was thinned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thinned {
     /// Vertices in the file.
@@ -185,12 +186,13 @@ struct Ring {
 /// Reads a finished gear.
 ///
 /// `source` is a path, or a folder that holds a `design.json`. Where a file holds both gears of a
-/// pair (a `design.json`, an OBJ with objects `driver` and `follower`), `role` picks one, or
-/// `#driver`, `#follower` behind the path does. The largest closed contour is the gear, contours in
+/// pair (a `design.json`, an OBJ with objects or a DXF with layers `driver` and `follower`), `role`
+/// picks one, or `#driver`, `#follower` behind the path does. The largest closed contour is the gear, contours in
 /// it are holes. Units: SVG with a size in mm, cm, in and the like has that scale, without one
 /// a unit of its view box is 1 mm; DXF by its header, mm without one; all else mm. Curves are
 /// flattened to [`policy::TOOTHED_CHORD`]; outlines of more than
-/// [`policy::OUTLINE_VERTICES_KEPT`] vertices are thinned within the stated tolerance.
+/// [`policy::OUTLINE_VERTICES_KEPT`] vertices, or that cross themselves by less than that chord,
+/// are thinned within the stated tolerance.
 ///
 /// # Errors
 /// See [`ToothedError`].
@@ -312,11 +314,15 @@ fn assemble(rings: Vec<Ring>, path: &str) -> Result<Toothed, ToothedError> {
     let mut rings = rings.into_iter().filter(|r| r.closed);
     let boundary = rings.next().map(|r| r.points).unwrap_or_default();
     let (boundary, thinned) = thinned(boundary).map_err(failed)?;
-    let outline = Outline::new(boundary).map_err(failed)?;
-    // A contour that does not enclose an area is no hole; decorations are no business of ours.
+    let (outline, thinned) = match Outline::new(boundary.clone()) {
+        Ok(outline) => (outline, thinned),
+        Err(error) => untangled(&boundary).ok_or_else(|| failed(error))?,
+    };
+    // A contour that encloses no area or crosses the gear's boundary, as a pitch curve does, is no
+    // hole; decorations are no business of ours.
     let mut holes: Vec<Outline> = rings
         .filter_map(|r| Outline::new(thinned_hole(r.points)).ok())
-        .filter(|hole| outline.contains(hole.points()[0]) && outline.contains(hole.centroid()))
+        .filter(|hole| hole.points().iter().all(|p| outline.contains(*p)))
         .collect();
     holes.sort_by(|a, b| b.area().total_cmp(&a.area()));
     Ok(Toothed { outline, holes, thinned, record: None })
@@ -340,6 +346,17 @@ fn thinned(points: Vec<Point>) -> Result<(Vec<Point>, Option<Thinned>), OutlineE
         share *= 2.0;
     }
     Err(OutlineError::TooIntricate)
+}
+
+/// A boundary that crosses itself by less than what matters: rounded numbers cross over folds that
+/// enclose no area.
+fn untangled(points: &[Point]) -> Option<(Outline, Option<Thinned>)> {
+    let (low, high) = geometry::bounds(points);
+    let tolerance = policy::TOOTHED_CHORD * (high - low).norm();
+    let outline = without_barbs(simplify(points, tolerance), tolerance);
+    let outline = Outline::new(outline).ok()?;
+    let thinned = Thinned { from: points.len(), to: outline.points().len(), tolerance };
+    Some((outline, Some(thinned)))
 }
 
 /// Holes only tell where the axis is.
