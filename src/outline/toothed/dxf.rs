@@ -113,7 +113,7 @@ impl Piece {
         }
         let sweep = 4.0 * bulge.atan();
         let height = 0.25 * (1.0 / bulge - bulge);
-        let center = nalgebra::center(&a, &b) + geometry::quarter_turn(chord) * (2.0 * height);
+        let center = nalgebra::center(&a, &b) + geometry::quarter_turn(chord) * height;
         let arm = a - center;
         let start = arm.y.atan2(arm.x);
         Self::Arc { center, radius: arm.norm(), start, sweep, ends: [a, b] }
