@@ -164,31 +164,3 @@ pub(crate) fn contacts(proof: &MeshingReport, driver_cycle: f64) -> Vec<ContactF
         proof.runs.iter().find(|r| !is_motor(r) && r.options.direction == Direction::Forward);
     measured.map(|run| contact_frames(run, driver_cycle)).unwrap_or_default()
 }
-
-/// The figures of a run for programs. Angles in radians, torque in N mm, lengths in mm.
-pub(crate) fn record(run: &Dynamics) -> serde_json::Value {
-    let s = &run.summary;
-    let placed = |w: Option<centrode::meshing::WorstPlace>| {
-        w.map(|w| serde_json::json!({ "value": w.value, "driver_angle": w.driver_angle }))
-    };
-    serde_json::json!({
-        "drive": if is_motor(run) { "motor" } else { "led" },
-        "direction": if run.options.direction == Direction::Backward { "backward" } else { "forward" },
-        "load": run.options.load,
-        "rpm": run.options.rpm,
-        "friction": run.options.friction,
-        "steps": run.steps.len(),
-        "transmission_error_peak_to_peak": s.swing_angle,
-        "transmission_error_pitch": s.swing,
-        "tracking_rms": s.tracking_rms,
-        "tracking_worst": placed(s.tracking_worst),
-        "torque_rms_loads": s.torque_rms,
-        "torque_excess_loads": placed(s.torque_excess),
-        "greatest_torque": placed(s.greatest_torque),
-        "penetration": placed(s.penetration),
-        "free_run_pitches": placed(s.free_run),
-        "net_turn_pitches": s.net_turn,
-        "contact_ratio": s.contact_ratio,
-        "efficiency": s.efficiency,
-    })
-}

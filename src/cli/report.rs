@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use centrode::design::Design;
+use centrode::design::{Design, run_record};
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section, Verdict};
 use serde_json::json;
 
@@ -47,7 +47,7 @@ pub(crate) fn summary(
             "transmission_error_p99": error.map(|e| e.p99_deviation),
             "lost_poses": contact.lost_poses,
             "contact_ratio": contact.contact_ratio,
-            "simulation": made.proof.as_ref().map(|p| p.runs.iter().map(super::proof::record).collect::<Vec<_>>()),
+            "simulation": made.proof.as_ref().map(|p| p.runs.iter().map(run_record).collect::<Vec<_>>()),
             "seconds": elapsed.as_secs_f64(),
         });
         writeln!(out, "{value}")?;

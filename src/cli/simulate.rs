@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use anyhow::Context;
-use centrode::design::SavedDesign;
+use centrode::design::{SavedDesign, run_record};
 use centrode::export::Staging;
 use centrode::meshing::{
     ContactInput, ContactOptions, DynamicsInput, Limits, MeshingReport, SampledMotion, Verdict,
@@ -59,7 +59,7 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
             "meshes": report.verdict != Verdict::DoesNotMesh,
             "faults": sentences(&report.faults),
             "warnings": sentences(&report.warnings),
-            "runs": report.runs.iter().map(proof::record).collect::<Vec<_>>(),
+            "runs": report.runs.iter().map(run_record).collect::<Vec<_>>(),
             "files": files,
         });
         writeln!(out, "{value}").context("cannot write to standard output")?;

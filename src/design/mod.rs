@@ -7,7 +7,7 @@ mod record;
 mod saved;
 
 pub use options::{BoreChoice, DesignError, DesignOptions, Scale, TeethStyle, ToothCount};
-pub use record::Record;
+pub use record::{Record, run_record};
 pub use saved::{RECORD_NAME, SavedDesign, SavedError};
 
 use crate::assembly::{Assembly, Gear, PlacedGear};

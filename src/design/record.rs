@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::Design;
 use crate::assembly::PlacedGear;
 use crate::geometry::Point;
+use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
 
 /// The record of one design; field order is the order in the file. Lengths mm, angles radians.
 #[derive(Debug, Serialize)]
@@ -84,6 +85,8 @@ struct Meshing {
     max_angular_backlash: Option<f64>,
     max_pressure_angle: Option<f64>,
     max_lean: f64,
+    /// What the rigid-body runs gave, if there were any.
+    runs: Vec<serde_json::Value>,
 }
 
 #[derive(Debug, Serialize)]
@@ -157,6 +160,7 @@ impl Record {
                 max_angular_backlash: summary.max_backlash.as_ref().map(|w| w.value),
                 max_pressure_angle: summary.max_pressure_angle.as_ref().map(|w| w.value),
                 max_lean: design.centrodes.max_lean(),
+                runs: design.proof.iter().flat_map(|p| p.runs.iter().map(run_record)).collect(),
             },
             settings: Settings {
                 ratio: options.ratio.to_string(),
@@ -204,4 +208,33 @@ fn gear_record(placed: &PlacedGear, center: Point) -> GearRecord {
         input: plain(&gear.input),
         rotation_center_in_input: [center.x, center.y],
     }
+}
+
+/// The figures of a run for programs. Angles in radians, torque in N mm, lengths in mm.
+#[must_use]
+pub fn run_record(run: &Dynamics) -> serde_json::Value {
+    let s = &run.summary;
+    let placed = |w: Option<WorstPlace>| {
+        w.map(|w| serde_json::json!({ "value": w.value, "driver_angle": w.driver_angle }))
+    };
+    serde_json::json!({
+        "drive": if matches!(run.options.drive, Drive::Motor(_)) { "motor" } else { "led" },
+        "direction": if run.options.direction == Direction::Backward { "backward" } else { "forward" },
+        "load": run.options.load,
+        "rpm": run.options.rpm,
+        "friction": run.options.friction,
+        "steps": run.steps.len(),
+        "transmission_error_peak_to_peak": s.swing_angle,
+        "transmission_error_pitch": s.swing,
+        "tracking_rms": s.tracking_rms,
+        "tracking_worst": placed(s.tracking_worst),
+        "torque_rms_loads": s.torque_rms,
+        "torque_excess_loads": placed(s.torque_excess),
+        "greatest_torque": placed(s.greatest_torque),
+        "penetration": placed(s.penetration),
+        "free_run_pitches": placed(s.free_run),
+        "net_turn_pitches": s.net_turn,
+        "contact_ratio": s.contact_ratio,
+        "efficiency": s.efficiency,
+    })
 }

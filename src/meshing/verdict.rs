@@ -269,6 +269,8 @@ pub fn judge(
     for run in &runs {
         judge_run(run, module, limits, &mut faults, &mut warnings);
     }
+    once_each(&mut faults);
+    once_each(&mut warnings);
     warnings.retain(|w| !faults.iter().any(|f| f.name() == w.name()));
     let verdict = match (faults.is_empty(), warnings.is_empty()) {
         (false, _) => Verdict::DoesNotMesh,
@@ -276,6 +278,16 @@ pub fn judge(
         (true, true) => Verdict::Meshes,
     };
     MeshingReport { verdict, faults, warnings, contact, runs }
+}
+
+/// Keeps the first of each kind: runs that fail alike are told once.
+fn once_each(reasons: &mut Vec<Reason>) {
+    let mut told: Vec<&'static str> = Vec::new();
+    reasons.retain(|r| {
+        let new = !told.contains(&r.name());
+        told.push(r.name());
+        new
+    });
 }
 
 fn judge_run(
