@@ -76,7 +76,9 @@ pub(super) fn contour(
     hole: bool,
     straight: bool,
 ) -> Result<Contour, String> {
-    if points.len() < 3 || !(geometry::area(points) > 0.0) {
+    if points.len() < 3
+        || geometry::area(points).partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater)
+    {
         return Err(TraceError::Empty.to_string());
     }
     if straight {

@@ -7,13 +7,14 @@ use super::partition::{PartitionError, convex_partition};
 use super::surface::Surface;
 use crate::geometry::{self, Point};
 use crate::policy;
+use parry2d_f64::shape::SharedShape;
 use rapier2d_f64::dynamics::{
     CCDSolver, GenericJointBuilder, ImpulseJointSet, IntegrationParameters, IslandManager,
     JointAxesMask, JointAxis, MassProperties, MotorModel, MultibodyJointSet, RigidBodyBuilder,
     RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 use rapier2d_f64::geometry::{
-    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SharedShape,
+    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase,
 };
 use rapier2d_f64::math::{Pose, Vector};
 use rapier2d_f64::pipeline::{

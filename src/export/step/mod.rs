@@ -51,7 +51,7 @@ fn file(entities: &Entities, out: &mut BufWriter<std::fs::File>) -> std::io::Res
     )?;
     // No time of writing: the same design gives the same bytes.
     let program = concat!("'centrode ", env!("CARGO_PKG_VERSION"), "'");
-    write!(out, "{program},{program},'');\n")?;
+    writeln!(out, "{program},{program},'');")?;
     out.write_all(
         b"FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n",
     )?;
@@ -139,7 +139,8 @@ impl Step {
         let trace = traced(points, self.tolerance, hole)?;
         let (area, drawn) = (trace.signed_area(), geometry::signed_area(points));
         let most = if hole { policy::STEP_HOLE_AREA_ERROR } else { policy::STEP_AREA_ERROR };
-        if !((area / drawn - 1.0).abs() <= most) {
+        let off = (area / drawn - 1.0).abs();
+        if off.is_nan() || off > most {
             return Err(format!("its curves enclose {area:.4} mm^2 instead of {drawn:.4} mm^2"));
         }
         Ok(trace.stretches().iter().flat_map(parts).collect())

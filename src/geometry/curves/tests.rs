@@ -71,7 +71,7 @@ fn corners_stay_exactly_where_they_are() {
         joins(&path).filter(|(a, b)| kink(a, b) > 0.1).map(|(a, _)| a.to).collect();
     assert!(corners.len() >= 32);
     for c in corners {
-        assert!(outline.iter().any(|p| *p == c), "{c} is no vertex");
+        assert!(outline.contains(&c), "{c} is no vertex");
     }
     let [vertices, _] = path.deviation();
     assert!(vertices <= policy::EXPORT_TOLERANCE);

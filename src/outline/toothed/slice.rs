@@ -97,7 +97,7 @@ fn sliced(mesh: &Mesh, asked: &Asked<'_>) -> Result<Vec<Ring>, ToothedError> {
     let heights = || mesh.triangles.iter().flatten().map(|&i| mesh.vertices[i][2]);
     let (low, high) =
         heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
-    if !(high > low) {
+    if high.partial_cmp(&low) != Some(std::cmp::Ordering::Greater) {
         return Err(ToothedError::NoContour { path: asked.path() });
     }
     let level = low + (0.5 + policy::SLICE_OFFSET) * (high - low);

@@ -47,8 +47,9 @@ fn at(degree: usize, knots: &[f64], control: &[Point], w: &[f64], span: usize, t
             let i = span - degree + j;
             let width = knots[i + degree + 1 - round] - knots[i];
             let share = if width > 0.0 { (t - knots[i]) / width } else { 0.0 };
-            for c in 0..3 {
-                d[j][c] = (1.0 - share) * d[j - 1][c] + share * d[j][c];
+            let last = d[j - 1];
+            for (value, last) in d[j].iter_mut().zip(last) {
+                *value = (1.0 - share) * last + share * *value;
             }
         }
     }
