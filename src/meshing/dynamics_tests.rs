@@ -1,6 +1,7 @@
 use super::*;
 use crate::meshing::spur::Spur;
 use crate::meshing::write_csv;
+use std::f64::consts::PI;
 
 fn run_spurs(options: &DynamicsOptions) -> Dynamics {
     let spur =

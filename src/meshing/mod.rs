@@ -9,6 +9,7 @@ mod index;
 mod motion;
 mod partition;
 mod play;
+mod recorder;
 #[cfg(test)]
 mod spur;
 mod summary;
