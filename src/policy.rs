@@ -46,8 +46,8 @@ pub const WANTED_CONTACT_RATIO: f64 = 1.15;
 pub const SMALLEST_TOP_LAND: f64 = 0.12;
 /// Chords across a tip or root land between its rounded corners.
 pub const LAND_CHORDS: usize = 6;
-/// Points on each rounded corner of a generating cap; more change the root by under 1e-3 module.
-pub const CAP_POINTS_PER_CORNER: usize = 6;
+/// Points on each rounded corner of a generating cap; more change the root by under 3e-4 module.
+pub const CAP_POINTS_PER_CORNER: usize = 12;
 /// Rounding of a generating cap's corners, in modules: the tip radius of ISO 53's basic rack.
 pub const CAP_ROUNDING: f64 = 0.38;
 /// Cosine below which a flank is taken as lying along the pitch curve when a cap continues it.
@@ -56,8 +56,13 @@ pub const CAP_LEAST_RISE: f64 = 0.2;
 pub const CAP_STEEPEST: f64 = 2.0;
 /// Share of a tip's half land that the sloping sides of its cap may use up.
 pub const CAP_LAND_USED: f64 = 0.7;
-/// Rays on which a root curve is found: one every few degrees of its turn.
-pub const ROOT_RAYS: usize = 17;
+/// Rays on which a root is found before its chords are judged.
+pub const ROOT_FIRST_RAYS: usize = 7;
+/// Greatest distance of a root's chord from the root, in modules: roots carry nothing, but drawings and
+/// solids made of true curves should agree with the outline in their area.
+pub const ROOT_CHORD: f64 = 1.5e-3;
+/// Times the angle between two first rays is halved at most.
+pub const ROOT_HALVINGS: u32 = 3;
 /// Instants at which the cap is placed before refinement.
 pub const ROOT_INSTANTS: usize = 25;
 /// Extra rolling on both ends of the cap's passage, in pitches: the corner must have turned away.

@@ -9,7 +9,7 @@
 use super::flank::Flank;
 use super::layout::Rack;
 use super::rolling::{Rolling, Side};
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 
 /// The cap on the tooth between flanks `a` (lesser s) and `b` (greater s) of gear `side`, from the
@@ -108,14 +108,6 @@ pub(crate) fn root_curve(
     if to - from < policy::ROOT_LEAST_ANGLE {
         return Vec::new();
     }
-    let count = policy::ROOT_RAYS;
-    // Closer together towards the flanks, where the root leaves them at a small angle.
-    let rays: Vec<f64> = (1..=count)
-        .map(|i| {
-            let t = std::f64::consts::PI * i as f64 / (count + 1) as f64;
-            from + (to - from) * 0.5 * (1.0 - t.cos())
-        })
-        .collect();
     // While the mate's corners are past their last contact on either flank the cap is in the space.
     let mut span = [a, b].map(|f| f.arc_at(mate.sign() * f.reach(mate)));
     span.sort_by(f64::total_cmp);
@@ -127,42 +119,60 @@ pub(crate) fn root_curve(
         let instant = rolling.at(s);
         cap.iter().map(|&p| polar(instant.to_local(side, instant.to_world(mate, p)))).collect()
     };
-    let mut farthest = vec![(0.0_f64, 0_usize); count];
-    for k in 0..instants {
-        let points = cap_at(start + step * k as f64);
-        for edge in points.windows(2) {
-            let ends = [edge[0], edge[1]].map(|(x, y)| x.atan2(y));
-            let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-            if high - low > std::f64::consts::PI {
-                continue;
-            }
-            let first = rays.partition_point(|&ray| ray < low);
-            let end = rays.partition_point(|&ray| ray <= high);
-            for i in first..end {
-                if let Some(r) = crossing(edge[0], edge[1], rays[i])
-                    && r > farthest[i].0
-                {
-                    farthest[i] = (r, k);
-                }
-            }
+    let caps: Vec<_> = (0..instants).map(|k| cap_at(start + step * k as f64)).collect();
+    let farthest = |cap: &[(f64, f64)], ray: f64| {
+        cap.windows(2).filter_map(|e| crossing(e[0], e[1], ray)).fold(0.0, f64::max)
+    };
+    let relief = policy::ROOT_RELIEF * rack.module + 0.25 * backlash;
+    let on_ray = |ray: f64| -> Option<Point> {
+        let found = caps.iter().map(|cap| farthest(cap, ray)).enumerate();
+        let (k, found) = found.max_by(|x, y| x.1.total_cmp(&y.1))?;
+        if found <= 0.0 {
+            return None;
         }
+        let at = start + step * k as f64;
+        let r = largest_near(|s| farthest(&cap_at(s), ray), at - step, at + step).max(found);
+        let (sin, cos) = ray.sin_cos();
+        Some(center + (r + relief) * (sin * frame.tangent - cos * frame.normal))
+    };
+    let first = policy::ROOT_FIRST_RAYS;
+    // Closer together towards the flanks, where the root leaves them at a small angle.
+    let rays = (1..=first).filter_map(|i| {
+        let t = std::f64::consts::PI * i as f64 / (first + 1) as f64;
+        let ray = from + (to - from) * 0.5 * (1.0 - t.cos());
+        on_ray(ray).map(|p| (ray, p))
+    });
+    let ends = [(from, end_a), (to, end_b)];
+    let rays: Vec<(f64, Point)> =
+        std::iter::once(ends[0]).chain(rays).chain(std::iter::once(ends[1])).collect();
+    let tolerance = policy::ROOT_CHORD * rack.module;
+    let mut points = Vec::new();
+    for pair in rays.windows(2) {
+        refine(&on_ray, [pair[0], pair[1]], tolerance, policy::ROOT_HALVINGS, &mut points);
+        points.push(pair[1].1);
     }
-    (0..count)
-        .filter(|&i| farthest[i].0 > 0.0)
-        .map(|i| {
-            let (found, k) = farthest[i];
-            let reach = |s: f64| {
-                let points = cap_at(s);
-                points.windows(2).filter_map(|e| crossing(e[0], e[1], rays[i])).fold(0.0, f64::max)
-            };
-            let at = start + step * k as f64;
-            let r = largest_near(reach, at - step, at + step).max(found)
-                + policy::ROOT_RELIEF * rack.module
-                + 0.25 * backlash;
-            let (sin, cos) = rays[i].sin_cos();
-            center + r * (sin * frame.tangent - cos * frame.normal)
-        })
-        .collect()
+    points.pop();
+    points
+}
+
+/// Adds points between two rays, in order, until each chord keeps within `tolerance` of the root at its
+/// middle ray or the halvings are used up.
+fn refine(
+    on_ray: &impl Fn(f64) -> Option<Point>,
+    [a, b]: [(f64, Point); 2],
+    tolerance: f64,
+    halvings: u32,
+    points: &mut Vec<Point>,
+) {
+    let ray = 0.5 * (a.0 + b.0);
+    let Some(p) = on_ray(ray) else { return };
+    let chord = b.1 - a.1;
+    if halvings == 0 || cross(chord, p - a.1).abs() <= tolerance * chord.norm() {
+        return;
+    }
+    refine(on_ray, [a, (ray, p)], tolerance, halvings - 1, points);
+    points.push(p);
+    refine(on_ray, [(ray, p), b], tolerance, halvings - 1, points);
 }
 
 /// Distance along the ray of the given angle (from the y axis) to the segment, if it is crossed.
