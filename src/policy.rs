@@ -807,3 +807,22 @@ pub const PROOF_REPAIRS: usize = 2;
 /// Walls thinner than twice this, in modules, are taken off a follower after relief: carving leaves
 /// slivers that hang on by a point.
 pub const RELIEF_SLIVER: f64 = 1e-3;
+
+// Moving pictures and thumbnails.
+
+/// Longer side of a moving picture, pixels: fits a chat and a README column.
+pub const ANIMATION_PIXELS: u32 = 560;
+/// Longer side of the picture inside a 3MF file, pixels: what file managers show.
+pub const THUMBNAIL_PIXELS: u32 = 256;
+/// Frames of a GIF in a second; delays are whole hundredths, and browsers slow down those under 2.
+pub const GIF_FRAMES_PER_SECOND: f64 = 25.0;
+/// Fewest and most frames of a GIF: enough to move, few enough to send.
+pub const GIF_FRAMES: [usize; 2] = [24, 200];
+/// Steps of the blend between two colours in a GIF: 4 colours and 6 pairs fill 256 entries.
+pub const GIF_BLENDS: u32 = 40;
+/// White about the gears in a picture, as a share of each gear's reach.
+pub const RASTER_MARGIN: f64 = 0.04;
+/// Where the spoke that shows a gear's turn begins and ends, as shares of its least radius.
+pub const RASTER_SPOKE: [f64; 2] = [0.45, 0.85];
+/// Width of that spoke, pixels.
+pub const RASTER_SPOKE_WIDTH: f64 = 3.0;

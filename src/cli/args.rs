@@ -51,9 +51,12 @@ pub(crate) struct ExportCommand {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Files")]
 pub(crate) struct ExportArgs {
-    /// Formats, separated by commas: glb, obj, stl, 3mf, step, dxf, svg, mjcf, html, json [default: all]
+    /// Formats, separated by commas: glb, obj, stl, 3mf, step, dxf, svg, mjcf, gif, html, json [default: all but gif]
     #[arg(long, value_name = "FORMATS", value_delimiter = ',')]
     pub(crate) export: Vec<Format>,
+    /// Also write the turning gears as moving pictures, turning.gif and turning.svg
+    #[arg(long)]
+    pub(crate) animate: bool,
     /// Greatest distance of the curves in STEP, DXF and laser.svg from the outline's vertices
     #[arg(long, default_value = "0.002mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) curve_tolerance: f64,

@@ -3,17 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use centrode::export::{
-    Dxf, Export, ExportError, Format, Glb, LaserSvg, Mjcf, Obj, Parts, Step, Stl, ThreeMf,
-    write_atomically,
+    Animation, Dxf, Export, ExportError, Format, Glb, LaserSvg, Mjcf, Obj, Parts, Step, Stl,
+    ThreeMf, write_atomically,
 };
 use centrode::report::{PictureOptions, pair_svg};
 
 use super::args::ExportArgs;
 
 impl ExportArgs {
-    /// Whether a format is wanted; all are when none is named.
+    /// Whether a format is wanted; all but the moving picture are when none is named.
     pub(crate) fn wants(&self, format: Format) -> bool {
-        self.export.is_empty() || self.export.contains(&format)
+        match format {
+            Format::Gif => self.animate || self.export.contains(&format),
+            _ => self.export.is_empty() || self.export.contains(&format),
+        }
     }
 }
 
@@ -25,7 +28,7 @@ pub(crate) fn write_parts(
 ) -> Result<Vec<PathBuf>, ExportError> {
     let tolerance = args.curve_tolerance;
     let dxf = Dxf { polyline: args.dxf_polyline, r12: args.dxf_r12, tolerance };
-    let formats: [(Format, &dyn Export); 8] = [
+    let formats: [(Format, &dyn Export); 9] = [
         (Format::Glb, &Glb::default()),
         (Format::Stl, &Stl),
         (Format::Obj, &Obj),
@@ -34,6 +37,7 @@ pub(crate) fn write_parts(
         (Format::Dxf, &dxf),
         (Format::Mjcf, &Mjcf::default()),
         (Format::Svg, &LaserSvg { kerf: args.kerf, tolerance }),
+        (Format::Gif, &Animation::default()),
     ];
     let mut files = Vec::new();
     for (format, writer) in formats {

@@ -22,6 +22,8 @@ pub enum Format {
     Svg,
     /// [`super::Mjcf`].
     Mjcf,
+    /// [`super::Animation`]; only written when asked for.
+    Gif,
     /// The page `report.html`.
     Html,
     /// The record `design.json`, which every run writes.
@@ -30,7 +32,7 @@ pub enum Format {
 
 impl Format {
     /// All formats, in the order in which they are written.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Glb,
         Self::Obj,
         Self::Stl,
@@ -39,6 +41,7 @@ impl Format {
         Self::Dxf,
         Self::Svg,
         Self::Mjcf,
+        Self::Gif,
         Self::Html,
         Self::Json,
     ];
@@ -55,6 +58,7 @@ impl Format {
             Self::Dxf => "dxf",
             Self::Svg => "svg",
             Self::Mjcf => "mjcf",
+            Self::Gif => "gif",
             Self::Html => "html",
             Self::Json => "json",
         }

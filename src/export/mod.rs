@@ -5,6 +5,7 @@
 //! [`crate::geometry::curves`]. Every file appears
 //! whole or not at all ([`write_atomically`]).
 
+mod animation;
 mod atomic;
 mod contours;
 mod dxf;
@@ -15,12 +16,14 @@ mod keys;
 mod laser_svg;
 mod mjcf;
 mod obj;
+mod raster;
 mod staging;
 mod step;
 mod stl;
 mod threemf;
 mod xml;
 
+pub use animation::Animation;
 pub use atomic::{ExportError, prepare_folder, write_atomically};
 pub use dxf::Dxf;
 pub use format::{Format, UnknownFormat};

@@ -1,10 +1,12 @@
 //! 3MF for slicers: units, names, colours and places that STL cannot hold.
 
 use super::contours::color;
+use super::raster::thumbnail;
 use super::xml::escaped;
 use super::{Export, ExportError, Parts, write_atomically};
 use crate::assembly::Assembly;
 use crate::geometry::{Point, rotate};
+use crate::policy;
 use crate::solid::Mesh;
 use std::fmt::Write as _;
 use std::io::{self, Seek, Write};
@@ -13,15 +15,15 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 /// `pair.3mf`: one named, coloured object per gear in millimetres, standing in mesh, moved as a whole
-/// so that nothing lies at negative coordinates.
+/// so that nothing lies at negative coordinates; a small picture for file managers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ThreeMf;
 
 const TYPES: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="png" ContentType="image/png"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>
 "#;
 const RELATIONS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/><Relationship Target="/Metadata/thumbnail.png" Id="rel1" Type="http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"/></Relationships>
 "#;
 
 impl Export for ThreeMf {
@@ -47,6 +49,9 @@ fn package(parts: Parts<'_>, out: impl Write + Seek) -> io::Result<()> {
     }
     zip.start_file("3D/3dmodel.model", options)?;
     zip.write_all(model(parts).as_bytes())?;
+    let picture = thumbnail(parts.assembly, policy::THUMBNAIL_PIXELS);
+    zip.start_file("Metadata/thumbnail.png", options)?;
+    zip.write_all(&picture.ok_or_else(|| io::Error::other("there is nothing to draw"))?)?;
     zip.finish()?;
     Ok(())
 }
@@ -150,6 +155,9 @@ mod tests {
         let mut text = String::new();
         zip.by_name("3D/3dmodel.model").unwrap().read_to_string(&mut text).unwrap();
         assert!(text.contains("unit=\"millimeter\"") && text.contains("name=\"a &quot;&lt;&amp;"));
+        let mut picture = Vec::new();
+        zip.by_name("Metadata/thumbnail.png").unwrap().read_to_end(&mut picture).unwrap();
+        assert!(image::load_from_memory(&picture).unwrap().width() <= policy::THUMBNAIL_PIXELS);
         for (part, original) in text.split("<mesh>").skip(1).zip(&meshes) {
             let (part, _) = part.split_once("</mesh>").unwrap();
             let lines = |tag: &'static str| part.lines().filter(move |l| l.contains(tag));
