@@ -3,6 +3,12 @@
 //! Every picture, solid and file is made from an [`Assembly`]; it knows
 //! nothing of how the gears were designed.
 
+mod motion;
+mod train;
+
+pub use motion::{MotionError, SampledMotion};
+pub use train::{Layout, Link, PairModel, Role, Train, TrainError, TrainGear, TrainPlan};
+
 use crate::geometry::Point;
 
 /// A finished gear in its own frame: origin on its axis, mm, counter-clockwise outline.
@@ -29,9 +35,22 @@ pub struct PlacedGear {
     pub gear: Gear,
     /// World position of the axis, mm.
     pub axis: Point,
+    /// World height of its lower face, mm: gears on one axle lie in layers.
+    pub level: f64,
     /// World rotation at each sample of [`Assembly::driver_angle`], radians,
     /// counter-clockwise positive, continuous (not wrapped), zero at the first sample.
     pub angle: Vec<f64>,
+}
+
+impl PlacedGear {
+    /// 1 where the gear turns counter-clockwise, -1 where it turns clockwise.
+    #[must_use]
+    pub fn sense(&self) -> f64 {
+        match (self.angle.first(), self.angle.last()) {
+            (Some(first), Some(last)) if last < first => -1.0,
+            _ => 1.0,
+        }
+    }
 }
 
 /// Gears in mesh and one whole cycle of their motion. All axes are parallel to z.
@@ -42,6 +61,10 @@ pub struct Assembly {
     /// Driver angle phi_D at each motion sample, radians, from zero, increasing;
     /// the last sample closes the cycle (every gear is back in its first pose).
     pub driver_angle: Vec<f64>,
-    /// Thickness of every gear, mm, along z from 0.
+    /// Thickness of every gear, mm, upwards from its level.
     pub thickness: f64,
+    /// Gears that touch, by number, the one that drives first.
+    pub meshes: Vec<[usize; 2]>,
+    /// Gears fixed on one axle, by number.
+    pub axles: Vec<[usize; 2]>,
 }

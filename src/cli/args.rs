@@ -30,6 +30,8 @@ pub(crate) enum Command {
     Simulate(Box<SimulateArgs>),
     /// Write more formats of a pair that `design` made before
     Export(ExportCommand),
+    /// Put many gears on their axles: a pair repeated, or a tree from a file
+    Train(Box<super::train::TrainArgs>),
     /// List the built-in shapes
     Shapes(ShapesArgs),
 }

@@ -41,7 +41,11 @@ pub(crate) fn write_parts(
     ];
     let mut files = Vec::new();
     for (format, writer) in formats {
-        if args.wants(format) {
+        // A MuJoCo scene holds no shared axles; it is refused only where it was asked for by name.
+        let possible = format != Format::Mjcf
+            || parts.assembly.axles.is_empty()
+            || args.export.contains(&format);
+        if args.wants(format) && possible {
             files.extend(writer.write(parts, folder)?);
         }
     }

@@ -10,6 +10,7 @@ mod proof;
 mod report;
 mod shapes;
 mod simulate;
+mod train;
 mod units;
 
 pub(crate) use args::Cli;
@@ -47,6 +48,7 @@ pub(crate) fn run(cli: Cli) -> anyhow::Result<Outcome> {
         Command::Check(args) => check::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Export(args) => export::run(&args),
+        Command::Train(args) => train::run(&args),
         Command::Shapes(args) => shapes::run(&args),
     }
 }

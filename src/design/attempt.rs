@@ -455,7 +455,13 @@ impl Attempt {
         Ok(Design {
             names: shapes.map(|s| s.name.clone()),
             options: options.clone(),
-            assembly: Assembly { gears, driver_angle, thickness: options.thickness },
+            assembly: Assembly {
+                gears,
+                driver_angle,
+                thickness: options.thickness,
+                meshes: vec![[0, 1]],
+                axles: Vec::new(),
+            },
             fit,
             centrodes: self.centrodes,
             teeth,

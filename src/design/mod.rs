@@ -5,10 +5,12 @@ mod feasibility;
 mod options;
 mod record;
 mod saved;
+mod train_file;
 
 pub use options::{BoreChoice, DesignError, DesignOptions, Scale, TeethStyle, ToothCount};
 pub use record::{Record, run_record};
 pub use saved::{RECORD_NAME, SavedDesign, SavedError};
+pub use train_file::{TrainFileError, read_train};
 
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::fit::{self, Fit, FittedGear, Objective};
@@ -261,5 +263,5 @@ fn bore_for(
 
 /// One gear on its axis.
 fn placed_gear(gear: Gear, axis: Point, angle: Vec<f64>) -> PlacedGear {
-    PlacedGear { gear, axis, angle }
+    PlacedGear { gear, axis, level: 0.0, angle }
 }

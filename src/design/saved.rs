@@ -136,12 +136,15 @@ impl SavedDesign {
                 PlacedGear {
                     gear: driver,
                     axis: Point::origin(),
+                    level: 0.0,
                     angle: self.driver_angle.clone(),
                 },
-                PlacedGear { gear: follower, axis: place, angle: turned },
+                PlacedGear { gear: follower, axis: place, level: 0.0, angle: turned },
             ],
             driver_angle: self.driver_angle.clone(),
             thickness: self.thickness,
+            meshes: vec![[0, 1]],
+            axles: Vec::new(),
         }
     }
 }

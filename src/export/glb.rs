@@ -150,7 +150,8 @@ impl Builder {
             }],
             weights: None,
         });
-        let place = [placed.axis.x, placed.axis.y, 0.0].map(|c| (METRES_PER_MM * c) as f32);
+        let place =
+            [placed.axis.x, placed.axis.y, placed.level].map(|c| (METRES_PER_MM * c) as f32);
         let start = placed.angle.first().copied().unwrap_or(0.0);
         self.root.push(json::Node {
             name: Some(name.clone()),

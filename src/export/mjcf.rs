@@ -11,8 +11,8 @@ use std::f64::consts::{PI, TAU};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// `scene.xml`: a hinge per gear, convex prisms that touch only those of the gears next to it in the
-/// assembly, a drive on the first gear and a load on the last. Self-contained; it turns without
+/// `scene.xml`: a hinge per gear, convex prisms that touch only those of the gears it meshes with,
+/// a drive on the first gear and a load on the last. Gears on a shared axle are refused. Self-contained; it turns without
 /// control. The designed motion is not in it: what turns the other gears is contact.
 ///
 /// Units: time s, torque N mm, angles radians; lengths such that a module is [`policy::MJCF_MODULE`]
@@ -70,6 +70,8 @@ struct Scene<'a> {
     /// Inertia of the last gear x speed^2 x greatest |psi''| over the load.
     kappa: f64,
     bodies: Vec<Body<'a>>,
+    /// Gears that touch, by number.
+    meshes: &'a [[usize; 2]],
 }
 
 struct Body<'a> {
@@ -109,6 +111,10 @@ impl Mjcf {
         self.check()?;
         if assembly.gears.len() < 2 {
             let why = format!("it has {} gears, a scene needs two", assembly.gears.len());
+            return Err(io::Error::new(ErrorKind::InvalidData, why));
+        }
+        if !assembly.axles.is_empty() {
+            let why = "it has gears on a shared axle, which a scene does not hold; leave mjcf out";
             return Err(io::Error::new(ErrorKind::InvalidData, why));
         }
         Ok(text::text(&self.measure(assembly)?))
@@ -189,6 +195,7 @@ impl Mjcf {
             timestep: tooth / f64::from(self.steps_per_tooth) / speed,
             kappa: inertias[gears.len() - 1] * speed * speed * last.curve / self.load,
             bodies,
+            meshes: &assembly.meshes,
         })
     }
 
@@ -278,6 +285,7 @@ mod tests {
         third.gear.name = "third".to_owned();
         third.axis = Point::new(160.0, 0.0);
         assembly.gears.push(third);
+        assembly.meshes.push([1, 2]);
         let text = Mjcf { load: 70.0, ..Mjcf::default() }.scene(&assembly).unwrap();
         let attribute = |line: &str, name: &str| -> u64 {
             let rest = line.split(&format!("{name}=\"")).nth(1).unwrap();

@@ -88,15 +88,23 @@ mod tests {
             PlacedGear {
                 gear: wavy("driver", 640, Bore::Round { diameter: 5.0 }),
                 axis: Point::origin(),
+                level: 0.0,
                 angle: driver_angle.clone(),
             },
             PlacedGear {
                 gear: wavy("follower", 640, Bore::Lego { play: policy::LEGO_AXLE_PLAY }),
                 axis: Point::new(80.0, 0.0),
+                level: 0.0,
                 angle: follower,
             },
         ];
-        let assembly = Assembly { gears, driver_angle, thickness: 6.0 };
+        let assembly = Assembly {
+            gears,
+            driver_angle,
+            thickness: 6.0,
+            meshes: vec![[0, 1]],
+            axles: Vec::new(),
+        };
         let meshes = assembly_solids(&assembly).unwrap();
         (assembly, meshes)
     }

@@ -30,7 +30,9 @@ fn objects(parts: Parts<'_>) -> Vec<Object> {
         .iter()
         .map(|(placed, mesh)| {
             let shading = shade(mesh, policy::CREASE_ANGLE);
-            let moved = |p: &[f64; 3]| vertex([p[0] + placed.axis.x, p[1] + placed.axis.y, p[2]]);
+            let moved = |p: &[f64; 3]| {
+                vertex([p[0] + placed.axis.x, p[1] + placed.axis.y, p[2] + placed.level])
+            };
             let faces = mesh.triangles.iter().zip(&shading.corners).map(|(t, n)| {
                 let [a, b, c] = [0, 1, 2].map(|k| (t[k] as usize, None, Some(n[k] as usize)));
                 Shape {

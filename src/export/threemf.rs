@@ -89,11 +89,12 @@ fn model(parts: Parts<'_>) -> String {
         let place = placed.axis - corner;
         let _ = writeln!(
             xml,
-            "  <item objectid=\"{}\" transform=\"{cos} {sin} 0 {} {cos} 0 0 0 1 {:.6} {:.6} 0\"/>",
+            "  <item objectid=\"{}\" transform=\"{cos} {sin} 0 {} {cos} 0 0 0 1 {:.6} {:.6} {:.6}\"/>",
             i + 2,
             0.0 - sin,
             place.x,
-            place.y
+            place.y,
+            placed.level
         );
     }
     xml.push_str(" </build>\n</model>\n");

@@ -10,7 +10,7 @@ use super::partition::PartitionError;
 use super::recorder::Recorder;
 use super::summary::WorstPlace;
 use super::touches::Touches;
-use super::world::{World, WorldInput};
+use super::world::{World, WorldGear, WorldInput};
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 use std::f64::consts::TAU;
@@ -292,21 +292,37 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
             Some(limit.map_or(policy::MOTOR_RESERVE * steepest, |l| l / options.load))
         }
     };
+    let inertia = real.max(policy::LEAST_KAPPA / curve);
+    let driver = WorldGear {
+        outline: pair.driver,
+        axis: Point::origin(),
+        angle: start,
+        speed: 1.0,
+        inertia,
+        torque: 0.0,
+        fixed_to: None,
+    };
+    let follower = WorldGear {
+        outline: pair.follower,
+        axis: Point::new(pair.center_distance, 0.0),
+        angle: play - (pair.motion)(start),
+        speed: -(pair.motion_derivative)(start),
+        // The follower turns clockwise; the load holds it back.
+        torque: 1.0,
+        ..driver
+    };
     let mut world = World::new(&WorldInput {
-        outlines: [pair.driver, pair.follower],
+        gears: vec![driver, follower],
+        meshes: vec![[0, 1]],
         center_distance: pair.center_distance,
         module: pair.module,
-        angles: [start, play - (pair.motion)(start)],
-        follower_speed: -(pair.motion_derivative)(start),
-        inertia: real.max(policy::LEAST_KAPPA / curve),
         friction: options.friction,
         step,
         motor,
     })
-    .map_err(|[driver, follower]| {
-        let gear = if driver.is_some() { "driver" } else { "follower" };
-        let source = driver.or(follower).unwrap_or(PartitionError::NoArea);
-        DynamicsError::Partition { gear, source }
+    .map_err(|(number, source)| DynamicsError::Partition {
+        gear: ["driver", "follower"][number.min(1)],
+        source,
     })?;
     let mut recorder = Recorder::new(pair, options);
     let end = (count as f64 - 0.5) * step;
@@ -317,7 +333,7 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
     let mut before = start;
     for i in 1..=budget {
         let sound = world.step();
-        let [driver_angle, _] = world.angles();
+        let driver_angle = world.angles()[0];
         if !sound {
             stopped = Some(Stop::Diverged { driver_angle: before });
             break;
@@ -340,7 +356,7 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
 }
 
 /// Moment of inertia of a gear about its axis times the square of the driver's speed, N mm.
-fn inertia(outline: &[Point], options: &DynamicsOptions) -> f64 {
+pub(super) fn inertia(outline: &[Point], options: &DynamicsOptions) -> f64 {
     let edges = outline.iter().zip(outline.iter().cycle().skip(1));
     let polar: f64 = edges
         .map(|(a, b)| {
@@ -355,7 +371,7 @@ fn inertia(outline: &[Point], options: &DynamicsOptions) -> f64 {
 }
 
 /// Greatest |psi''|, at least [`policy::LEAST_ACCELERATION`] of the mean ratio.
-fn greatest_acceleration(pair: &ContactInput<'_>) -> f64 {
+pub(super) fn greatest_acceleration(pair: &ContactInput<'_>) -> f64 {
     let h = TAU / policy::ACCELERATION_SAMPLES as f64;
     let mean = (pair.motion)(pair.driver_cycle) - (pair.motion)(0.0);
     let least = policy::LEAST_ACCELERATION * mean / pair.driver_cycle;

@@ -6,7 +6,6 @@ mod csv;
 mod dynamics;
 mod gap;
 mod index;
-mod motion;
 mod partition;
 mod play;
 mod recorder;
@@ -15,9 +14,11 @@ mod spur;
 mod summary;
 mod surface;
 mod touches;
+mod train;
 mod verdict;
 mod world;
 
+pub use crate::assembly::{MotionError, SampledMotion};
 pub use contact::{
     Contact, ContactAnalysis, ContactError, ContactInput, ContactOptions, ContactPose, analyse,
     poses_at,
@@ -28,8 +29,11 @@ pub use dynamics::{
     Step, Stop, simulate,
 };
 pub use gap::{Gap, GapFinder};
-pub use motion::{MotionError, SampledMotion};
 pub use partition::{PartitionError, convex_partition};
 pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};
 pub use touches::Touches;
+pub use train::{
+    MeshFigures, MeshPlay, TrainPlay, TrainRun, TrainRunError, TrainStep, judge_train,
+    simulate_train, train_play,
+};
 pub use verdict::{Limits, MeshingReport, Reason, Verdict, judge, prove, proving_runs};

@@ -40,9 +40,8 @@ impl Recorder {
     }
 
     pub(super) fn record(&mut self, world: &World, psi: f64) {
-        let [driver_angle, follower] = world.angles();
-        let follower_angle = -follower;
-        let contacts = world.contacts();
+        let (driver_angle, follower_angle) = (world.angles()[0], -world.angles()[1]);
+        let contacts = world.contacts(0);
         // What the driver is given is what the follower takes from it.
         let driver_torque = -self.load * contacts.iter().map(|c| c.moment).sum::<f64>();
         let mut teeth: Vec<Point> = Vec::new();
@@ -101,7 +100,7 @@ impl Recorder {
 }
 
 /// Mean over `half` neighbours on each side, fewer at the ends.
-fn averaged(values: &[f64], half: usize) -> Vec<f64> {
+pub(super) fn averaged(values: &[f64], half: usize) -> Vec<f64> {
     let mut sums = vec![0.0];
     for v in values {
         sums.push(sums[sums.len() - 1] + v);

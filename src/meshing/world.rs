@@ -1,4 +1,4 @@
-//! Two gears as rigid bodies in rapier2d; the only file that names it.
+//! Gears as rigid bodies in rapier2d; the only file that names it.
 //!
 //! Units of this world: lengths such that the module is [`policy::WORLD_MODULE`], time such that
 //! the driver turns by one radian, torque such that the load is the square of the centre distance.
@@ -14,30 +14,46 @@ use rapier2d_f64::dynamics::{
     RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 use rapier2d_f64::geometry::{
-    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase,
+    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SolverFlags,
 };
 use rapier2d_f64::math::{Pose, Vector};
 use rapier2d_f64::pipeline::{
-    ActiveHooks, ContactModificationContext, PhysicsHooks, PhysicsPipeline,
+    ActiveHooks, ContactModificationContext, PairFilterContext, PhysicsHooks, PhysicsPipeline,
 };
+use rayon::prelude::*;
+use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 /// What a world is made of. Lengths mm, angles radians.
 pub(super) struct WorldInput<'a> {
-    pub(super) outlines: [&'a [Point]; 2],
+    /// The first is the driver.
+    pub(super) gears: Vec<WorldGear<'a>>,
+    /// Gears that touch, by number, the one nearer the driver first.
+    pub(super) meshes: Vec<[usize; 2]>,
     pub(super) center_distance: f64,
     pub(super) module: f64,
-    /// World rotations at the start.
-    pub(super) angles: [f64; 2],
-    /// The follower's speed at the start over the driver's; negative, as it turns the other way.
-    pub(super) follower_speed: f64,
-    /// Inertia of the follower times the square of the driver's speed over the load.
-    pub(super) inertia: f64,
     pub(super) friction: f64,
     /// Driver angle of one step at full speed.
     pub(super) step: f64,
     /// Largest torque of the motor over the load; without one the driver is led.
     pub(super) motor: Option<f64>,
+}
+
+/// One gear of a world.
+pub(super) struct WorldGear<'a> {
+    pub(super) outline: &'a [Point],
+    /// Place of its axis, mm; the driver's is the origin.
+    pub(super) axis: Point,
+    /// World rotation at the start.
+    pub(super) angle: f64,
+    /// Its speed at the start over the driver's, counter-clockwise positive.
+    pub(super) speed: f64,
+    /// Inertia times the square of the driver's speed over the load.
+    pub(super) inertia: f64,
+    /// Torque on it over the load, counter-clockwise positive.
+    pub(super) torque: f64,
+    /// The gear on whose axle it is fixed, if it has none of its own; of lesser number.
+    pub(super) fixed_to: Option<usize>,
 }
 
 /// One touching point.
@@ -46,9 +62,9 @@ pub(super) struct WorldContact {
     pub(super) point: Point,
     /// Below zero where the gears overlap, mm.
     pub(super) distance: f64,
-    /// Moment about the driver's axis that the follower exerts here, over the load.
+    /// Moment about the axis of the first gear of the mesh that the second exerts here, over the load.
     pub(super) moment: f64,
-    /// Force on the follower over the load, 1/mm.
+    /// Force on the second gear over the load, 1/mm.
     pub(super) force: geometry::Vector,
     /// Whether it carries load.
     pub(super) loaded: bool,
@@ -66,55 +82,76 @@ pub(super) struct World {
     multibodies: MultibodyJointSet,
     soft: SoftBodySet,
     ccd: CCDSolver,
-    gears: [RigidBodyHandle; 2],
-    shapes: [ColliderHandle; 2],
+    gears: Vec<RigidBodyHandle>,
+    shapes: Vec<ColliderHandle>,
+    meshes: Vec<[usize; 2]>,
+    /// Torque on each gear, in the world's units.
+    torques: Vec<f64>,
     surfaces: Surfaces,
     /// Rotations without wrapping.
-    angles: [f64; 2],
+    angles: Vec<f64>,
     /// World lengths per mm.
     scale: f64,
     load: f64,
 }
 
 impl World {
-    pub(super) fn new(input: &WorldInput<'_>) -> Result<Self, [Option<PartitionError>; 2]> {
+    /// # Errors
+    /// The first gear without convex pieces, and why.
+    pub(super) fn new(input: &WorldInput<'_>) -> Result<Self, (usize, PartitionError)> {
         let scale = policy::WORLD_MODULE / input.module;
         let distance = scale * input.center_distance;
         let load = distance * distance;
-        let shapes = input.outlines.map(|outline| compound(outline, scale));
-        let [driver_shape, follower_shape] = match shapes {
-            [Ok(a), Ok(b)] => [a, b],
-            failed => return Err(failed.map(Result::err)),
-        };
-        let mass = MassProperties::new(Vector::new(0.0, 0.0), 1.0, input.inertia * load);
-        let driver = if input.motor.is_some() {
-            RigidBodyBuilder::dynamic().lock_translations().additional_mass_properties(mass)
-        } else {
-            RigidBodyBuilder::kinematic_velocity_based()
-        };
-        let driver = driver.rotation(input.angles[0]).angvel(1.0).can_sleep(false);
-        let follower = RigidBodyBuilder::dynamic()
-            .translation(Vector::new(distance, 0.0))
-            .rotation(input.angles[1])
-            .angvel(input.follower_speed)
-            .lock_translations()
-            .additional_mass_properties(mass)
-            .can_sleep(false);
         let mut bodies = RigidBodySet::new();
         let mut colliders = ColliderSet::new();
         let mut joints = ImpulseJointSet::new();
-        let gears = [bodies.insert(driver), bodies.insert(follower)];
-        let collider = |shape: SharedShape| {
-            ColliderBuilder::new(shape)
-                .density(0.0)
-                .friction(input.friction)
-                .restitution(0.0)
-                .active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS)
+        let compounds = input
+            .gears
+            .par_iter()
+            .enumerate()
+            .map(|(i, gear)| compound(gear.outline, scale).map_err(|e| (i, e)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut gears: Vec<RigidBodyHandle> = Vec::new();
+        for (i, gear) in input.gears.iter().enumerate() {
+            if let Some(body) = gear.fixed_to.and_then(|k| gears.get(k)).copied() {
+                gears.push(body);
+                continue;
+            }
+            let mass = MassProperties::new(Vector::new(0.0, 0.0), 1.0, gear.inertia * load);
+            let body = if i == 0 && input.motor.is_none() {
+                RigidBodyBuilder::kinematic_velocity_based()
+            } else {
+                RigidBodyBuilder::dynamic().lock_translations().additional_mass_properties(mass)
+            };
+            let place = gear.axis * scale;
+            let body = body
+                .translation(Vector::new(place.x, place.y))
+                .rotation(gear.angle)
+                .angvel(gear.speed)
+                .can_sleep(false);
+            gears.push(bodies.insert(body));
+        }
+        // Where every gear may touch every other nothing needs to be asked.
+        let hooks = if input.gears.len() > 2 {
+            ActiveHooks::MODIFY_SOLVER_CONTACTS | ActiveHooks::FILTER_CONTACT_PAIRS
+        } else {
+            ActiveHooks::MODIFY_SOLVER_CONTACTS
         };
-        let shapes = [
-            colliders.insert_with_parent(collider(driver_shape), gears[0], &mut bodies),
-            colliders.insert_with_parent(collider(follower_shape), gears[1], &mut bodies),
-        ];
+        let shapes: Vec<ColliderHandle> = compounds
+            .into_iter()
+            .zip(&input.gears)
+            .zip(&gears)
+            .map(|((shape, gear), &body)| {
+                let turned = gear.fixed_to.map_or(0.0, |k| gear.angle - input.gears[k].angle);
+                let collider = ColliderBuilder::new(shape)
+                    .density(0.0)
+                    .friction(input.friction)
+                    .restitution(0.0)
+                    .rotation(turned)
+                    .active_hooks(hooks);
+                colliders.insert_with_parent(collider, body, &mut bodies)
+            })
+            .collect();
         if let Some(limit) = input.motor {
             let ground = bodies.insert(RigidBodyBuilder::fixed());
             let limit = limit * load;
@@ -125,11 +162,16 @@ impl World {
             joints.insert(ground, gears[0], motor, true);
         }
         let surfaces = Surfaces {
-            driver: shapes[0],
-            surfaces: input.outlines.map(|outline| {
-                let scaled: Vec<Point> = outline.iter().map(|p| p * scale).collect();
-                Surface::new(&scaled, policy::WORLD_MODULE)
-            }),
+            numbers: shapes.iter().enumerate().map(|(i, &shape)| (shape, i)).collect(),
+            surfaces: input
+                .gears
+                .iter()
+                .map(|gear| {
+                    let scaled: Vec<Point> = gear.outline.iter().map(|p| p * scale).collect();
+                    Surface::new(&scaled, policy::WORLD_MODULE)
+                })
+                .collect(),
+            meshes: input.meshes.clone(),
         };
         let softness = SpringCoefficients::new(1.0 / input.step, 1.0);
         let parameters = IntegrationParameters {
@@ -157,8 +199,10 @@ impl World {
             ccd: CCDSolver::new(),
             gears,
             shapes,
+            meshes: input.meshes.clone(),
+            torques: input.gears.iter().map(|g| g.torque * load).collect(),
             surfaces,
-            angles: input.angles,
+            angles: input.gears.iter().map(|g| g.angle).collect(),
             scale,
             load,
         })
@@ -166,10 +210,13 @@ impl World {
 
     /// One step; false when a rotation is no longer a number.
     pub(super) fn step(&mut self) -> bool {
-        if let Some(follower) = self.bodies.get_mut(self.gears[1]) {
-            follower.reset_torques(true);
-            // The follower turns clockwise; the load holds it back.
-            follower.add_torque(self.load, true);
+        for (gear, &torque) in self.gears.iter().zip(&self.torques) {
+            if torque != 0.0
+                && let Some(body) = self.bodies.get_mut(*gear)
+            {
+                body.reset_torques(true);
+                body.add_torque(torque, true);
+            }
         }
         self.pipeline.step(
             Vector::new(0.0, 0.0),
@@ -197,21 +244,24 @@ impl World {
         true
     }
 
-    /// World rotations of driver and follower, radians, not wrapped.
-    pub(super) fn angles(&self) -> [f64; 2] {
-        self.angles
+    /// World rotations of the gears' bodies, radians, not wrapped.
+    pub(super) fn angles(&self) -> &[f64] {
+        &self.angles
     }
 
-    /// Where the gears touch or nearly touch after the last step.
-    pub(super) fn contacts(&self) -> Vec<WorldContact> {
-        let Some(pair) = self.narrow.contact_pair(self.shapes[0], self.shapes[1]) else {
+    /// Where the gears of a mesh touch or nearly touch after the last step.
+    pub(super) fn contacts(&self, mesh: usize) -> Vec<WorldContact> {
+        let Some(&[first, second]) = self.meshes.get(mesh) else { return Vec::new() };
+        let Some(pair) = self.narrow.contact_pair(self.shapes[first], self.shapes[second]) else {
             return Vec::new();
         };
         let Some(rigid) = pair.rigid() else { return Vec::new() };
-        let driver_first = pair.collider1 == self.shapes[0];
-        let Some(pose) = self.bodies.get(self.gears[0]).map(|b| *b.position()) else {
-            return Vec::new();
-        };
+        let driver_first = pair.collider1 == self.shapes[first];
+        let place = self.bodies.get(self.gears[first]).map(|b| *b.position());
+        let turned = self.colliders.get(self.shapes[first]).and_then(|c| c.position_wrt_parent());
+        let (Some(body), Some(turned)) = (place, turned) else { return Vec::new() };
+        // Anchors lie in the frame of the collider, which has the body's origin.
+        let pose = body * *turned;
         // From the driver's impulse to the follower's force, over the load and per mm.
         let unit = -self.scale / (self.parameters.dt * self.load);
         let mut found = Vec::new();
@@ -227,7 +277,9 @@ impl World {
                 let impulse = (push * data.impulse + tangent * data.tangent_impulse.x) * sign;
                 let moment = (arm.x * impulse.y - arm.y * impulse.x) / self.parameters.dt;
                 found.push(WorldContact {
-                    point: Point::new(arm.x, arm.y) / self.scale,
+                    point: (Point::new(arm.x, arm.y)
+                        + geometry::Vector::new(pose.translation.x, pose.translation.y))
+                        / self.scale,
                     distance: contact.dist / self.scale,
                     moment: moment / self.load,
                     force: geometry::Vector::new(impulse.x, impulse.y) * unit,
@@ -239,19 +291,31 @@ impl World {
     }
 }
 
-/// Takes away the contacts with the inner sides of convex pieces.
+/// Takes away the contacts with the inner sides of convex pieces, and those of gears that do not mesh.
 struct Surfaces {
-    driver: ColliderHandle,
-    /// Of driver and follower, in world lengths.
-    surfaces: [Surface; 2],
+    numbers: HashMap<ColliderHandle, usize>,
+    /// In world lengths.
+    surfaces: Vec<Surface>,
+    meshes: Vec<[usize; 2]>,
 }
 
 impl PhysicsHooks for Surfaces {
+    fn filter_contact_pair(&self, context: &PairFilterContext<'_>) -> Option<SolverFlags> {
+        let number = |handle| self.numbers.get(handle).copied();
+        let (a, b) = (number(&context.collider1)?, number(&context.collider2)?);
+        let meshing = self.meshes.iter().any(|m| *m == [a, b] || *m == [b, a]);
+        meshing.then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
+    }
+
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
-        let [first, second] = if context.collider1 == self.driver { [0, 1] } else { [1, 0] }
-            .map(|i| &self.surfaces[i]);
-        let poses = [context.rigid_body1, context.rigid_body2]
-            .map(|body| body.and_then(|b| context.bodies.get(b)).map(|b| *b.position()));
+        let surface = |handle| self.numbers.get(handle).map(|&i| &self.surfaces[i]);
+        let (Some(first), Some(second)) =
+            (surface(&context.collider1), surface(&context.collider2))
+        else {
+            return;
+        };
+        let poses = [context.collider1, context.collider2]
+            .map(|handle| context.colliders.get(handle).map(|c| *c.position()));
         let [Some(one), Some(two)] = poses else { return };
         let Some(rigid) = context.rigid_mut() else { return };
         let normal = *rigid.normal;

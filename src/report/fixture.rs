@@ -37,16 +37,20 @@ pub(super) fn ellipses() -> Assembly {
             PlacedGear {
                 gear: gear("driver", driver, 0.0, 5.0),
                 axis: Point::origin(),
+                level: 0.0,
                 angle: phi.clone(),
             },
             PlacedGear {
                 gear: gear("follower", follower, PI, 3.0),
                 axis: Point::new(2.0 * SEMI_AXIS, 0.0),
+                level: 0.0,
                 angle: psi.iter().map(|p| -p).collect(),
             },
         ],
         driver_angle: phi,
         thickness: 6.0,
+        meshes: vec![[0, 1]],
+        axles: Vec::new(),
     }
 }
 

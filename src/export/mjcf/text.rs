@@ -92,9 +92,10 @@ fn head(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
         i = policy::MJCF_IMPEDANCE,
     )?;
     for i in 0..=last {
-        // Gear i makes a match with i + 1 by the flag of i.
-        let own = if i < last { 1_u64 << (i % COLLISION_BITS) } else { 0 };
-        let before = if i > 0 { 1_u64 << ((i - 1) % COLLISION_BITS) } else { 0 };
+        // A gear matches those that it drives by its own flag. Flags repeat only far along a train.
+        let flag = |k: usize| 1_u64 << (k % COLLISION_BITS);
+        let own = if scene.meshes.iter().any(|m| m[0] == i) { flag(i) } else { 0 };
+        let before = scene.meshes.iter().filter(|m| m[1] == i).fold(0, |all, m| all | flag(m[0]));
         writeln!(
             out,
             "    <default class=\"gear{i}\"><geom material=\"gear{i}\" contype=\"{own}\" conaffinity=\"{before}\"/></default>"

@@ -221,7 +221,7 @@ fn style(e: &mut Entities, solid: Id, color: [u8; 3]) -> Id {
 /// Where a gear stands in its first pose.
 fn place(e: &mut Entities, placed: &PlacedGear) -> Id {
     let (sin, cos) = placed.angle.first().copied().unwrap_or(0.0).sin_cos();
-    e.frame([placed.axis.x, placed.axis.y, 0.0], [0.0, 0.0, 1.0], [cos, sin, 0.0])
+    e.frame([placed.axis.x, placed.axis.y, placed.level], [0.0, 0.0, 1.0], [cos, sin, 0.0])
 }
 
 #[cfg(test)]

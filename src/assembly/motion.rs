@@ -1,7 +1,8 @@
 //! A motion known by samples, as files carry it.
 
-use crate::assembly::Assembly;
+use super::Assembly;
 use crate::pitch::solve_cyclic;
+use crate::policy;
 
 /// psi and psi' through samples of one whole cycle, repeated for ever: a periodic cubic spline.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,6 +108,35 @@ impl SampledMotion {
         (s0 + 2.0 * (3.0 * rise - 2.0 * s0 - s1) * t + 3.0 * (s0 + s1 - 2.0 * rise) * t * t) / h
     }
 
+    /// The driver angle at which psi is `follower_angle`, both radians; psi of it is `follower_angle` to rounding.
+    #[must_use]
+    pub fn inverse(&self, follower_angle: f64) -> f64 {
+        let last = self.follower.len() - 1;
+        let rise = self.follower[last] - self.follower[0];
+        let turns = ((follower_angle - self.follower[0]) / rise).floor();
+        let at = follower_angle - turns * rise;
+        let i = self.follower.partition_point(|&f| f <= at).clamp(1, last) - 1;
+        let (mut low, mut high) = (self.driver[i], self.driver[i + 1]);
+        let share = (at - self.follower[i]) / (self.follower[i + 1] - self.follower[i]);
+        let mut guess = low + share * (high - low);
+        // Newton's method, kept in the interval in which psi passes the angle.
+        for _ in 0..policy::INVERSE_STEPS {
+            let off = self.psi(guess) - at;
+            if off > 0.0 {
+                high = guess
+            } else {
+                low = guess
+            }
+            let next = guess - off / self.derivative(guess);
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            if (next - guess).abs() <= f64::EPSILON * (1.0 + guess.abs()) {
+                break;
+            }
+            guess = next;
+        }
+        guess + turns * self.cycle()
+    }
+
     /// Interval, place in it (0 to 1) and whole cycles before it.
     fn place(&self, driver_angle: f64) -> (usize, f64, f64) {
         let turns = ((driver_angle - self.driver[0]) / self.cycle()).floor();
@@ -144,6 +174,7 @@ mod tests {
         for a in [-7.3, 0.0, 0.1234, 3.3, 6.25, TAU, 20.0] {
             assert!((motion.psi(a) - psi(a)).abs() < 1e-8, "{a}");
             assert!((motion.derivative(a) - (1.0 + 0.2 * a.cos())).abs() < 1e-6, "{a}");
+            assert!((motion.inverse(motion.psi(a)) - a).abs() < 1e-12, "{a}");
         }
     }
 
