@@ -73,7 +73,9 @@ fn words_of(args: &SceneArgs) -> anyhow::Result<Vec<OsString>> {
             continue;
         }
         let mut values = setting.values.iter().map(|v| resolved(arg, v, folder));
-        if let Some(index) = arg.get_index() {
+        if arg.is_positional() {
+            let index = known.get_positionals().position(|p| p.get_id() == arg.get_id());
+            let index = index.unwrap_or_default();
             places.extend(values.map(|v| (index, v)));
         } else if setting.values.is_empty() {
             options.push(format!("--{}", setting.key).into());
