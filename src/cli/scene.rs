@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
 
 use anyhow::{Context, anyhow, bail};
-use centrode::export::write_atomically;
+use centrode::export::{prepare_folder, write_atomically};
 use centrode::scene::{Key, Kind, Setting, command_of, read, write};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, CommandFactory, Parser, ValueHint};
@@ -143,6 +143,9 @@ pub(crate) fn save(path: &Path, words: &[OsString]) -> anyhow::Result<()> {
         })
         .collect();
     let text = write(name, &keys(known), &settings);
+    if !folder.as_os_str().is_empty() {
+        prepare_folder(folder)?;
+    }
     write_atomically(path, |out| std::io::Write::write_all(out, text.as_bytes()))?;
     Ok(())
 }

@@ -17,7 +17,7 @@ pub struct Thumbnail {
     pub outlines: [String; 2],
     /// The drawings behind them.
     pub inputs: [String; 2],
-    /// Reach of driver and follower from their axes, in steps of the grid.
+    /// Reach of driver and follower, drawings too, from their axes, in steps of the grid.
     pub reach: [u32; 2],
     /// Periods in a whole turn of driver and follower.
     pub folds: [u32; 2],
@@ -48,7 +48,7 @@ impl Thumbnail {
         };
         let reach = |gear: usize| {
             rings.get(gear).map_or(0, |r| {
-                let far = r[0].iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+                let far = r.iter().copied().flatten().map(|p| p.coords.norm()).fold(0.0, f64::max);
                 (far / step).ceil() as u32
             })
         };
