@@ -372,6 +372,7 @@ fn without_teeth(
     let figures = Figures {
         e: objective.shape + objective.weight * objective.torque,
         shape: objective.shape,
+        total: objective.total,
         torque: centrodes.transmission.max_derivative(),
         iou: [0, 1].map(|i| intersection_over_union(&curves[i], &inputs[i])),
         teeth: None,

@@ -35,6 +35,8 @@ pub struct Figures {
     pub e: f64,
     /// E_s.
     pub shape: f64,
+    /// What the search made small: E with the costs of bounds and of repeating a window for K > 1.
+    pub total: f64,
     /// Greatest psi' of the finished pitch curves: the driver's torque over the load.
     pub torque: f64,
     /// Likeness of driver and follower: area of intersection over union.
@@ -63,6 +65,7 @@ impl Figures {
         Self {
             e: objective.shape + objective.weight * objective.torque,
             shape: objective.shape,
+            total: objective.total,
             torque: design.centrodes.transmission.max_derivative(),
             iou: design.likeness,
             teeth: Some(design.teeth),
@@ -91,13 +94,14 @@ pub fn sorted(mut rows: Vec<Row>) -> Vec<Row> {
     rows
 }
 
-const COLUMNS: [&str; 19] = [
+const COLUMNS: [&str; 20] = [
     "driver",
     "follower",
     "K",
     "verdict",
     "E",
     "E_s",
+    "total",
     "max_psi_prime",
     "driver_iou",
     "follower_iou",
@@ -126,7 +130,7 @@ pub fn to_csv(rows: &[Row]) -> String {
         ];
         match &row.figures {
             Some(f) => {
-                cells.extend([f.e, f.shape, f.torque, f.iou[0], f.iou[1]].map(fixed));
+                cells.extend([f.e, f.shape, f.total, f.torque, f.iou[0], f.iou[1]].map(fixed));
                 cells.extend(two(f.teeth));
                 cells.push(f.module.map(fixed).unwrap_or_default());
                 cells.push(fixed(f.lean.to_degrees()));
@@ -181,6 +185,7 @@ pub(super) mod tests {
             figures: e.map(|e| Figures {
                 e,
                 shape: 0.1,
+                total: 0.4,
                 torque: 1.5,
                 iou: [0.9, 0.8],
                 teeth: Some([32, 32]),
