@@ -12,7 +12,7 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return cli::refused(&error),
     };
-    match cli::run(cli) {
+    match cli::run(&cli) {
         Ok(outcome) => outcome.exit_code(),
         Err(error) => {
             // One line, whatever a file name or a library's message contains.

@@ -1,12 +1,14 @@
 //! The command line, as clap reads it.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use centrode::export::Format;
+use centrode::gallery::Shard;
 use centrode::geometry::Point;
 use centrode::policy;
 use centrode::solid::Bore;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 
 use super::units;
 
@@ -17,6 +19,9 @@ pub(crate) struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub(crate) command: Command,
+    /// Also write this run as a scene that `centrode run` carries out
+    #[arg(long, global = true, value_name = "FILE.toml", display_order = 900)]
+    pub(crate) save_scene: Option<PathBuf>,
 }
 
 /// The commands.
@@ -34,6 +39,100 @@ pub(crate) enum Command {
     Train(Box<super::train::TrainArgs>),
     /// List the built-in shapes
     Shapes(ShapesArgs),
+    /// Make gears of many pairs of shapes, and a page on which all of them turn
+    Gallery(Box<GalleryArgs>),
+    /// Carry out a scene: a TOML file with the options of a command
+    Run(SceneArgs),
+}
+
+/// Options of `centrode run`.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArgs {
+    /// The scene; paths in it are seen from its own folder
+    #[arg(value_name = "FILE.toml")]
+    pub(crate) scene: PathBuf,
+    /// Folder for the files [default: the scene's, else out/ and the scene's name]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Options that take the place of the scene's
+    #[arg(last = true, value_name = "OPTIONS")]
+    pub(crate) more: Vec<OsString>,
+}
+
+/// Options of `centrode gallery`.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub(crate) struct GalleryArgs {
+    /// Join the galleries of several parts into one
+    #[command(subcommand)]
+    pub(crate) step: Option<GalleryStep>,
+    /// Folders of drawings, drawings, built-in names, or `all` built-in shapes: each is paired with itself and those after it
+    #[arg(value_name = "SHAPES", value_hint = ValueHint::FilePath)]
+    pub(crate) from: Vec<String>,
+    /// The same, separated by commas
+    #[arg(long, value_name = "SHAPES", value_delimiter = ',', value_hint = ValueHint::FilePath)]
+    pub(crate) shapes: Vec<String>,
+    /// A file that lists pairs, one on a line: DRIVER FOLLOWER, and K where it differs; paths seen from the file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) pairs: Option<PathBuf>,
+    /// Pair every shape with every other in both roles
+    #[arg(long)]
+    pub(crate) both_roles: bool,
+    /// Folder for the gallery; a run that was stopped goes on where it was
+    #[arg(short, long, value_name = "FOLDER", required = true)]
+    pub(crate) output: Option<PathBuf>,
+    /// Ratios, separated by commas: whole numbers or 1/whole
+    #[arg(
+        short = 'k',
+        long,
+        default_value = "1",
+        value_name = "K",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub(crate) ratio: Vec<String>,
+    /// Do part I of N only; `centrode gallery merge` joins the parts
+    #[arg(long, value_name = "I/N", value_parser = units::shard)]
+    pub(crate) shard: Option<Shard>,
+    /// Make the pitch curves only: no teeth, no verdict
+    #[arg(long, conflicts_with_all = ["simulate", "thorough"])]
+    pub(crate) no_teeth: bool,
+    /// Judge every pair as `design` does: at three times as many poses, and relieved
+    #[arg(long)]
+    pub(crate) thorough: bool,
+    /// Run every pair as rigid bodies too; implies --thorough
+    #[arg(long, help_heading = "Simulation")]
+    pub(crate) simulate: bool,
+    #[command(flatten)]
+    pub(crate) shape: ShapeArgs,
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
+    #[command(flatten)]
+    pub(crate) teeth: TeethArgs,
+    #[command(flatten)]
+    pub(crate) size: SizeArgs,
+    #[command(flatten)]
+    pub(crate) formats: ExportArgs,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+}
+
+/// What else `centrode gallery` does.
+#[derive(Debug, Subcommand)]
+pub(crate) enum GalleryStep {
+    /// Join the galleries of several parts into one
+    Merge(MergeArgs),
+}
+
+/// Options of `centrode gallery merge`.
+#[derive(Debug, Args)]
+pub(crate) struct MergeArgs {
+    /// Folders that `centrode gallery` wrote
+    #[arg(value_name = "FOLDER", required = true)]
+    pub(crate) parts: Vec<PathBuf>,
+    /// Folder for the whole
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
 }
 
 /// Options of `centrode export`.
@@ -88,10 +187,10 @@ pub(crate) struct ShapesArgs {
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
     /// Outline of the driver: SVG, DXF, CSV, JSON, STL or OBJ, or a folder with a design.json
-    #[arg(value_name = "DRIVER")]
+    #[arg(value_name = "DRIVER", value_hint = ValueHint::FilePath)]
     pub(crate) driver: String,
     /// Outline of the follower, likewise; from a design.json the follower is taken
-    #[arg(value_name = "FOLLOWER")]
+    #[arg(value_name = "FOLLOWER", value_hint = ValueHint::FilePath)]
     pub(crate) follower: String,
     /// Distance between the axes [default: that of the design.json]
     #[arg(short = 'L', long, value_name = "LENGTH", value_parser = units::center_distance, allow_hyphen_values = true)]
@@ -141,10 +240,10 @@ pub(crate) struct CheckArgs {
 #[derive(Debug, Args)]
 pub(crate) struct DesignArgs {
     /// Shape of the driver: an SVG, a silhouette image, a point file, or a built-in name
-    #[arg(value_name = "DRIVER")]
+    #[arg(value_name = "DRIVER", value_hint = ValueHint::FilePath)]
     pub(crate) driver: String,
     /// Shape of the follower, likewise
-    #[arg(value_name = "FOLLOWER")]
+    #[arg(value_name = "FOLLOWER", value_hint = ValueHint::FilePath)]
     pub(crate) follower: String,
     /// Folder for the files
     #[arg(short, long, value_name = "FOLDER")]

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     Ok(if made.is_sound() { Outcome::Good } else { Outcome::NotSound })
 }
 
-fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
+pub(super) fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
     let ratio: Ratio = args.ratio.parse()?;
     let defaults = DesignOptions::new(ratio);
     Ok(DesignOptions {

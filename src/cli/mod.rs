@@ -5,9 +5,12 @@ mod check;
 mod design;
 mod export;
 mod files;
+mod gallery;
+mod gallery_shapes;
 mod progress;
 mod proof;
 mod report;
+mod scene;
 mod shapes;
 mod simulate;
 mod train;
@@ -16,6 +19,7 @@ mod units;
 pub(crate) use args::Cli;
 use args::Command;
 use clap::error::ErrorKind;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Exit code for bad input; nothing was written.
@@ -41,16 +45,28 @@ impl Outcome {
     }
 }
 
-/// Carries out the command line.
-pub(crate) fn run(cli: Cli) -> anyhow::Result<Outcome> {
-    match cli.command {
-        Command::Design(args) => design::run(&args),
-        Command::Check(args) => check::run(&args),
-        Command::Simulate(args) => simulate::run(&args),
-        Command::Export(args) => export::run(&args),
-        Command::Train(args) => train::run(&args),
-        Command::Shapes(args) => shapes::run(&args),
+/// Carries out the command line of this process.
+pub(crate) fn run(cli: &Cli) -> anyhow::Result<Outcome> {
+    let words: Vec<OsString> = std::env::args_os().collect();
+    carry_out(cli, &words)
+}
+
+/// Carries out a command line; `words` is what was parsed into `cli`.
+fn carry_out(cli: &Cli, words: &[OsString]) -> anyhow::Result<Outcome> {
+    let outcome = match &cli.command {
+        Command::Design(args) => design::run(args),
+        Command::Check(args) => check::run(args),
+        Command::Simulate(args) => simulate::run(args),
+        Command::Export(args) => export::run(args),
+        Command::Train(args) => train::run(args),
+        Command::Shapes(args) => shapes::run(args),
+        Command::Gallery(args) => gallery::run(args, words),
+        Command::Run(args) => scene::run(args),
+    }?;
+    if let Some(path) = &cli.save_scene {
+        scene::save(path, words)?;
     }
+    Ok(outcome)
 }
 
 /// Prints what clap has to say; help and version are no errors, errors take one line.

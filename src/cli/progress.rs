@@ -35,3 +35,38 @@ impl Progress {
         self.0.finish_and_clear();
     }
 }
+
+/// A bar that counts pairs.
+#[derive(Debug)]
+pub(crate) struct Bar(ProgressBar);
+
+impl Bar {
+    /// A bar of `total` steps, or silence when nobody watches.
+    pub(crate) fn new(total: u64) -> Self {
+        if !std::io::stderr().is_terminal() {
+            return Self(ProgressBar::hidden());
+        }
+        let bar = ProgressBar::new(total);
+        let template = "{bar:32} {pos} of {len}, {eta} left  {msg}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(TICK);
+        Self(bar)
+    }
+
+    /// Says what is being made.
+    pub(crate) fn doing(&self, what: impl Into<String>) {
+        self.0.set_message(what.into());
+    }
+
+    /// One more is done.
+    pub(crate) fn step(&self) {
+        self.0.inc(1);
+    }
+
+    /// Takes the line away.
+    pub(crate) fn done(&self) {
+        self.0.finish_and_clear();
+    }
+}

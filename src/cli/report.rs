@@ -169,8 +169,9 @@ fn command_line() -> String {
     let mut words = Vec::new();
     while let Some(word) = given.next() {
         match word.as_str() {
-            "-o" | "--output" => _ = given.next(),
+            "-o" | "--output" | "--save-scene" => _ = given.next(),
             w if w.starts_with("-o") || w.starts_with("--output=") => {}
+            w if w.starts_with("--save-scene=") => {}
             _ => words.push(quoted(word)),
         }
     }

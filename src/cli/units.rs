@@ -1,5 +1,6 @@
 //! Lengths and angles as people type them.
 
+use centrode::gallery::Shard;
 use centrode::geometry::Point;
 use centrode::solid::Bore;
 
@@ -122,6 +123,16 @@ pub(crate) fn fraction(text: &str) -> Result<f64, String> {
         value if value <= 1.0 => Ok(value),
         _ => Err(format!("'{text}' is not between 0 and 1")),
     }
+}
+
+/// A part of the work from `I/N`.
+pub(crate) fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text.split_once('/').and_then(|(i, n)| {
+        Some((i.trim().parse::<usize>().ok()?, n.trim().parse::<usize>().ok()?))
+    });
+    numbers.and_then(|(part, of)| Shard::new(part, of)).ok_or_else(|| {
+        format!("'{text}' is no part of the work; write it like 2/8: the second of eight")
+    })
 }
 
 /// A bore: `none`, `lego`, or the diameter of a round hole.

@@ -20,6 +20,7 @@ pub use data::{
 pub use page::report_html;
 pub use picture::{PictureOptions, pair_svg};
 pub use sheet::contact_sheet_svg;
+pub(crate) use thin::thin_ring;
 
 #[cfg(test)]
 mod fixture;

@@ -4,7 +4,7 @@ use crate::geometry::{Point, cross};
 
 /// Drops points of a closed ring that lie within `tolerance` of the line through the kept ones
 /// (Ramer, Douglas and Peucker).
-pub(super) fn thin_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
+pub(crate) fn thin_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
     let n = points.len();
     if n < 4 {
         return points.to_vec();
