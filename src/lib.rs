@@ -6,6 +6,7 @@ pub mod design;
 pub mod export;
 pub mod fit;
 pub mod geometry;
+pub mod law;
 pub mod meshing;
 pub mod outline;
 pub mod pitch;

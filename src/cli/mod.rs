@@ -5,12 +5,17 @@ mod check;
 mod design;
 mod export;
 mod files;
+mod making;
+mod mate;
+mod motion;
 mod progress;
 mod proof;
 mod report;
 mod shapes;
+mod shell;
 mod simulate;
 mod units;
+mod version;
 
 pub(crate) use args::Cli;
 use args::Command;
@@ -42,12 +47,22 @@ impl Outcome {
 
 /// Carries out the command line.
 pub(crate) fn run(cli: Cli) -> anyhow::Result<Outcome> {
+    if cli.quiet {
+        progress::silence();
+    }
+    if let Some(count) = cli.threads {
+        rayon::ThreadPoolBuilder::new().num_threads(usize::from(count)).build_global()?;
+    }
     match cli.command {
         Command::Design(args) => design::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Shapes(args) => shapes::run(&args),
+        Command::Motion(args) => motion::run(&args),
+        Command::Mate(args) => mate::run(&args),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     }
 }
 

@@ -11,6 +11,7 @@ mod global_search;
 mod laws;
 mod limits;
 mod lipschitz;
+mod mate;
 mod objective;
 mod paper_search;
 mod placement;
@@ -18,7 +19,8 @@ mod ratio;
 mod refine;
 
 pub use limits::{LimitCost, LimitError, Limits, apply};
-pub use objective::Objective;
+pub use mate::{Mated, mate};
+pub use objective::{Fixed, Objective};
 pub use placement::{FittedGear, Similarity};
 pub use ratio::{Ratio, RatioError};
 
@@ -49,6 +51,8 @@ pub struct FitOptions {
     pub limits: Limits,
     /// Samples of one period of psi' (the paper's N).
     pub samples: usize,
+    /// What the search may not choose.
+    pub fixed: Fixed,
 }
 
 impl Default for FitOptions {
@@ -59,6 +63,7 @@ impl Default for FitOptions {
             weight: policy::DEFAULT_TORQUE_WEIGHT,
             limits: Limits::default(),
             samples: policy::DEFAULT_FIT_SAMPLES,
+            fixed: Fixed::default(),
         }
     }
 }
@@ -90,6 +95,17 @@ pub enum FitError {
         /// Most allowed at this ratio.
         most: usize,
     },
+    /// Two shapes at a ratio that is neither whole nor the reciprocal of a whole number.
+    #[error(
+        "two shapes cannot be fitted at a ratio of {ratio}; give a whole number or the reciprocal of one, or make the pair from a motion or from one shape"
+    )]
+    Rational {
+        /// Ratio asked for.
+        ratio: Ratio,
+    },
+    /// A fixed axis or angle is not a number.
+    #[error("a fixed axis or orientation is not a finite number; correct it or leave it out")]
+    FixedNotFinite,
     /// No rotation centre inside a shape makes a pair.
     #[error(
         "no pair of rotation centres inside the shapes makes a law; use shapes that are less thin"
@@ -138,6 +154,9 @@ pub fn fit(
     options: &FitOptions,
 ) -> Result<Fit, FitError> {
     check(ratio, options)?;
+    if !ratio.is_whole() {
+        return Err(FitError::Rational { ratio });
+    }
     let shapes = (driver.points(), follower.points());
     let problem = objective::Problem::new(
         shapes,
@@ -145,7 +164,16 @@ pub fn fit(
         &options.limits,
         (options.weight, options.balance),
         options.samples,
-    );
+    )
+    .with_fixed(options.fixed);
+    for (role, axis) in [
+        (laws::Role::Driver, options.fixed.driver_axis),
+        (laws::Role::Follower, options.fixed.follower_axis),
+    ] {
+        if let Some(axis) = axis {
+            problem.law(role, axis)?;
+        }
+    }
     // Impossible limits should be said at once, not found in every candidate.
     let even = [1.0; policy::MIN_TRANSMISSION_SAMPLES];
     apply(&even, problem.folds(), &options.limits)?;
@@ -164,6 +192,9 @@ fn check(ratio: Ratio, options: &FitOptions) -> Result<(), FitError> {
     }
     if !(weight >= 0.0 && weight.is_finite()) {
         return Err(FitError::Weight { weight });
+    }
+    if !options.fixed.is_finite() {
+        return Err(FitError::FixedNotFinite);
     }
     let windows = ratio.driver_fold().max(ratio.follower_fold()) as usize;
     let (least, most) = (policy::FIT_SAMPLES_LEAST, policy::FIT_SAMPLES_MOST / windows);
