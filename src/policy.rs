@@ -837,3 +837,13 @@ pub const MATE_SCAN_SAMPLES: usize = 256;
 pub const MATE_STARTS: usize = 8;
 /// Evaluations of one such refinement: two coordinates.
 pub const MATE_EVALUATIONS: usize = 60;
+/// Values of phi + psi at which a law is made symmetric, over its period of two turns.
+pub const SYMMETRIC_SUMS: usize = 2048;
+/// Sines of a symmetric law, in two turns; the last are damped to nothing.
+pub const SYMMETRIC_WAVES: usize = 512;
+/// Sine that is damped by a factor e: 100 waves a turn, 3.6 degrees, less than half a tooth of the finest pair chosen.
+pub const SYMMETRIC_DAMPING: f64 = 200.0;
+/// Samples of a symmetric law: the spline through 100 waves a turn then errs by 1e-10 of the centre distance.
+pub const SYMMETRIC_SAMPLES: usize = 8192;
+/// Rounds in which a symmetric law is brought within its bounds.
+pub const SYMMETRIC_ROUNDS: usize = 6;

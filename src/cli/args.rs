@@ -358,6 +358,9 @@ pub(crate) struct FitArgs {
     /// Turn of the follower's drawing, counter-clockwise, while the driver's is upright [default: searched]
     #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     pub(crate) orientation: Option<f64>,
+    /// Both gears have exactly the same pitch curve: for one shape named twice, at ratio 1
+    #[arg(long, conflicts_with_all = ["follower_axis", "orientation"])]
+    pub(crate) symmetric: bool,
 }
 
 /// What the teeth are like.

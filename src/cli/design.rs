@@ -41,6 +41,7 @@ fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
                 follower_axis: args.fit.follower_axis,
                 orientation: args.fit.orientation,
             },
+            symmetric: args.fit.symmetric,
             ..making.fit
         },
         ..making

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 use std::time::Instant;
 
-use anyhow::{Context, bail};
+use anyhow::{Context, anyhow, bail};
 use centrode::design::from_motion;
 use centrode::law::{Formula, LawOptions, Quantity, Table, from_function};
 use centrode::pitch::Transmission;
@@ -60,15 +60,14 @@ fn motion(args: &MotionArgs) -> anyhow::Result<(Transmission, [String; 2])> {
 
 /// A table's bytes, and at most one more than is taken.
 fn read(path: &Path) -> anyhow::Result<Vec<u8>> {
-    let refused = || format!("{}: the table cannot be read; check the path", path.display());
     if path.is_dir() {
         bail!("{}: this is a folder; name a table in it", path.display());
     }
     let mut bytes = Vec::new();
     File::open(path)
-        .with_context(refused)?
-        .take(policy::LAW_TABLE_BYTES as u64 + 1)
-        .read_to_end(&mut bytes)
-        .with_context(refused)?;
+        .and_then(|file| file.take(policy::LAW_TABLE_BYTES as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| {
+            anyhow!("{}: the table cannot be read ({error}); check the path", path.display())
+        })?;
     Ok(bytes)
 }

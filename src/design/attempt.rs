@@ -189,6 +189,8 @@ impl Attempt {
         } else {
             let folds = source.folds();
             let (samples, rounding) = fit::apply(&source.raw, folds, &settings.limits(options))?;
+            let samples =
+                if source.symmetric { fit::symmetrised(&samples)?.samples } else { samples };
             (Transmission::from_derivative(&samples, folds.0, folds.1)?, rounding)
         };
         let centrodes = scaled(transmission, options, Some(settings.teeth));

@@ -128,7 +128,7 @@ pub fn design(
 ) -> Result<Design, DesignError> {
     check(options)?;
     let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
-    made_from(&Source::fitted([driver, follower], fit), options)
+    made_from(&Source::fitted([driver, follower], fit, options.fit.symmetric), options)
 }
 
 /// Designs a pair of gears that moves as `transmission` says, at the size that `options` give.

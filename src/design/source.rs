@@ -28,10 +28,12 @@ pub(super) struct Source<'a> {
     pub(super) fit: Option<Fit>,
     /// Whether the motion itself is what is wanted, to be changed only when no teeth follow it.
     pub(super) exact: bool,
+    /// Whether both pitch curves must be one.
+    pub(super) symmetric: bool,
 }
 
 impl<'a> Source<'a> {
-    pub(super) fn fitted(shapes: [&'a Shape; 2], fit: Fit) -> Self {
+    pub(super) fn fitted(shapes: [&'a Shape; 2], fit: Fit, symmetric: bool) -> Self {
         let [driver, follower] = shapes;
         Self {
             names: shapes.map(|s| s.name.clone()),
@@ -44,6 +46,7 @@ impl<'a> Source<'a> {
             ],
             fit: Some(fit),
             exact: false,
+            symmetric,
         }
     }
 
@@ -60,6 +63,7 @@ impl<'a> Source<'a> {
             drawings,
             fit: None,
             exact: true,
+            symmetric: false,
         }
     }
 
@@ -72,6 +76,7 @@ impl<'a> Source<'a> {
             drawings: [Some(Drawn { shape, gear: mated.driver }), None],
             fit: None,
             exact: false,
+            symmetric: false,
         }
     }
 

@@ -17,12 +17,14 @@ mod paper_search;
 mod placement;
 mod ratio;
 mod refine;
+mod symmetric;
 
 pub use limits::{LimitCost, LimitError, Limits, apply};
 pub use mate::{Mated, mate};
 pub use objective::{Fixed, Objective};
 pub use placement::{FittedGear, Similarity};
 pub use ratio::{Ratio, RatioError};
+pub use symmetric::{Symmetric, symmetrised};
 
 use crate::outline::Outline;
 use crate::pitch::{PolarError, Transmission, TransmissionError};
@@ -53,6 +55,8 @@ pub struct FitOptions {
     pub samples: usize,
     /// What the search may not choose.
     pub fixed: Fixed,
+    /// Whether both gears must have the same pitch curve; both shapes must then be one, and the ratio 1.
+    pub symmetric: bool,
 }
 
 impl Default for FitOptions {
@@ -64,6 +68,7 @@ impl Default for FitOptions {
             limits: Limits::default(),
             samples: policy::DEFAULT_FIT_SAMPLES,
             fixed: Fixed::default(),
+            symmetric: false,
         }
     }
 }
@@ -102,6 +107,14 @@ pub enum FitError {
     Rational {
         /// Ratio asked for.
         ratio: Ratio,
+    },
+    /// Two shapes or a ratio that cannot give equal gears.
+    #[error(
+        "both gears can be the same curve only {need}; name one shape twice and keep the ratio 1, or do not ask for symmetry"
+    )]
+    Symmetric {
+        /// What is not given.
+        need: &'static str,
     },
     /// A fixed axis or angle is not a number.
     #[error("a fixed axis or orientation is not a finite number; correct it or leave it out")]
@@ -156,6 +169,21 @@ pub fn fit(
     check(ratio, options)?;
     if !ratio.is_whole() {
         return Err(FitError::Rational { ratio });
+    }
+    if options.symmetric {
+        let need = if ratio != Ratio::ONE {
+            Some("at a ratio of 1")
+        } else if driver != follower {
+            Some("if both are made from one shape")
+        } else if options.fixed.orientation.is_some() {
+            Some("in a pose that is found, not fixed")
+        } else {
+            None
+        };
+        return match need {
+            Some(need) => Err(FitError::Symmetric { need }),
+            None => symmetric::fit_symmetric(driver, options),
+        };
     }
     let shapes = (driver.points(), follower.points());
     let problem = objective::Problem::new(
