@@ -7,6 +7,7 @@ pub mod export;
 pub mod fit;
 pub mod gallery;
 pub mod geometry;
+pub mod law;
 pub mod meshing;
 pub mod outline;
 pub mod pitch;

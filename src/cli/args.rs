@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use centrode::export::Format;
 use centrode::gallery::Shard;
+use centrode::fit::Ratio;
 use centrode::geometry::Point;
+use centrode::law::Preset;
 use centrode::policy;
 use centrode::solid::Bore;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -14,8 +16,14 @@ use super::units;
 
 /// Turns two drawings into a pair of gears that mesh.
 #[derive(Debug, Parser)]
-#[command(version, about, max_term_width = 100)]
+#[command(version, long_version = super::version::build_facts(), about, max_term_width = 100)]
 pub(crate) struct Cli {
+    /// Print nothing but errors, and JSON where asked for
+    #[arg(short, long, global = true, help_heading = "Everywhere")]
+    pub(crate) quiet: bool,
+    /// Threads to work with [default: one a processor]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Everywhere")]
+    pub(crate) threads: Option<u16>,
     /// What to do.
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -29,6 +37,10 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Make a pair of gears from two shapes
     Design(Box<DesignArgs>),
+    /// Make a pair of gears that turn as a formula, a table or a preset says
+    Motion(Box<MotionArgs>),
+    /// Make a gear of one shape, and the gear that runs with it
+    Mate(Box<MateArgs>),
     /// Judge two gears, whoever made them: exit code 0 when they mesh, 1 when not, 2 for bad input
     Check(Box<CheckArgs>),
     /// Run a saved design again as rigid bodies, with other load, friction or direction
@@ -133,6 +145,10 @@ pub(crate) struct MergeArgs {
     /// Folder for the whole
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: PathBuf,
+    /// Print the completions of a shell
+    Completions(CompletionsArgs),
+    /// Print the manual page, or write one for each command
+    Man(ManArgs),
 }
 
 /// Options of `centrode export`.
@@ -234,6 +250,97 @@ pub(crate) struct CheckArgs {
     /// Print the verdict as JSON on standard output
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Options of `centrode completions`.
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// bash, elvish, fish, powershell or zsh
+    #[arg(value_name = "SHELL")]
+    pub(crate) shell: clap_complete::Shell,
+}
+
+/// Options of `centrode man`.
+#[derive(Debug, Args)]
+pub(crate) struct ManArgs {
+    /// Folder for one page a command [default: the main page on standard output]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Options of `centrode motion`.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("given").required(true).args(["law", "centrode", "preset"]))]
+pub(crate) struct MotionArgs {
+    /// psi' as a formula of the driver's angle phi (radians), or a table of two columns (.csv, .tsv, .txt)
+    #[arg(value_name = "LAW")]
+    pub(crate) law: Option<String>,
+    /// LAW is psi, the follower's angle, instead of its derivative
+    #[arg(long, conflicts_with_all = ["centrode", "preset"])]
+    pub(crate) psi: bool,
+    /// Radius of the driver's pitch curve by direction phi, in any unit: a formula or a table
+    #[arg(long, value_name = "RADIUS")]
+    pub(crate) centrode: Option<String>,
+    /// constant, ellipse:E (about its focus), eccentric:E, dwell:LEAST, or quick-return:TIMES
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<Preset>,
+    /// Turns of the driver for one turn of the follower, or of both, such as 2, 1/3 or 3:2
+    #[arg(short = 'k', long, default_value = "1", value_name = "M:N", value_parser = units::turns, allow_hyphen_values = true)]
+    pub(crate) ratio: Ratio,
+    /// Scale psi' until it closes instead of refusing a law that does not
+    #[arg(long, conflicts_with_all = ["centrode", "preset"])]
+    pub(crate) normalise: bool,
+    #[command(flatten)]
+    pub(crate) pair: PairArgs,
+}
+
+/// Options of `centrode mate`.
+#[derive(Debug, Args)]
+pub(crate) struct MateArgs {
+    /// Shape of the driver: an SVG, a silhouette image, a point file, or a built-in name
+    #[arg(value_name = "SHAPE")]
+    pub(crate) shape: String,
+    /// Turns of the driver for one turn of its mate, or of both, such as 2, 1/3 or 3:2
+    #[arg(short = 'k', long, default_value = "1", value_name = "M:N", value_parser = units::turns, allow_hyphen_values = true)]
+    pub(crate) ratio: Ratio,
+    /// Axis, in the coordinates of the drawing, y upwards [default: the best one]
+    #[arg(long, value_name = "X,Y", value_parser = units::point, allow_hyphen_values = true)]
+    pub(crate) axis: Option<Point>,
+    #[command(flatten)]
+    pub(crate) reading: ShapeArgs,
+    /// Weight of the driver torque against likeness (omega)
+    #[arg(long, default_value = "0.2", value_name = "OMEGA", value_parser = units::zero_or_more, allow_hyphen_values = true, help_heading = "Fitting")]
+    pub(crate) torque_weight: f64,
+    /// Largest driver torque allowed, in multiples of the mate's [default: no limit]
+    #[arg(long, value_name = "FACTOR", value_parser = units::positive, allow_hyphen_values = true, help_heading = "Fitting")]
+    pub(crate) max_torque: Option<f64>,
+    /// Steepest lean of the pitch curve against its radius, degrees
+    #[arg(long, default_value = "55", value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true, help_heading = "Fitting")]
+    pub(crate) max_lean: f64,
+    #[command(flatten)]
+    pub(crate) pair: PairArgs,
+}
+
+/// What every command that makes a pair can be told besides where the pair comes from.
+#[derive(Debug, Args)]
+pub(crate) struct PairArgs {
+    /// Folder for the files
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Print the summary as JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) teeth: TeethArgs,
+    #[command(flatten)]
+    pub(crate) size: SizeArgs,
+    #[command(flatten)]
+    pub(crate) formats: ExportArgs,
+    /// Do not run the pair as rigid bodies
+    #[arg(long, help_heading = "Simulation")]
+    pub(crate) no_simulate: bool,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
 }
 
 /// Options of `centrode design`.
@@ -346,6 +453,18 @@ pub(crate) struct FitArgs {
     /// Steepest lean of the pitch curve against its radius, degrees
     #[arg(long, default_value = "55", value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     pub(crate) max_lean: f64,
+    /// Axis of the driver, in the coordinates of its drawing, y upwards [default: searched]
+    #[arg(long, value_name = "X,Y", value_parser = units::point, allow_hyphen_values = true)]
+    pub(crate) driver_axis: Option<Point>,
+    /// Axis of the follower, in the coordinates of its drawing, y upwards [default: searched]
+    #[arg(long, value_name = "X,Y", value_parser = units::point, allow_hyphen_values = true)]
+    pub(crate) follower_axis: Option<Point>,
+    /// Turn of the follower's drawing, counter-clockwise, while the driver's is upright [default: searched]
+    #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
+    pub(crate) orientation: Option<f64>,
+    /// Both gears have exactly the same pitch curve: for one shape named twice, at ratio 1
+    #[arg(long, conflicts_with_all = ["follower_axis", "orientation"])]
+    pub(crate) symmetric: bool,
 }
 
 /// What the teeth are like.

@@ -7,14 +7,19 @@ mod export;
 mod files;
 mod gallery;
 mod gallery_shapes;
+mod making;
+mod mate;
+mod motion;
 mod progress;
 mod proof;
 mod report;
 mod scene;
 mod shapes;
+mod shell;
 mod simulate;
 mod train;
 mod units;
+mod version;
 
 pub(crate) use args::Cli;
 use args::Command;
@@ -47,6 +52,12 @@ impl Outcome {
 
 /// Carries out the command line of this process.
 pub(crate) fn run(cli: &Cli) -> anyhow::Result<Outcome> {
+    if cli.quiet {
+        progress::silence();
+    }
+    if let Some(count) = cli.threads {
+        rayon::ThreadPoolBuilder::new().num_threads(usize::from(count)).build_global()?;
+    }
     let words: Vec<OsString> = std::env::args_os().collect();
     carry_out(cli, &words)
 }
@@ -55,6 +66,8 @@ pub(crate) fn run(cli: &Cli) -> anyhow::Result<Outcome> {
 fn carry_out(cli: &Cli, words: &[OsString]) -> anyhow::Result<Outcome> {
     let outcome = match &cli.command {
         Command::Design(args) => design::run(args),
+        Command::Motion(args) => motion::run(args),
+        Command::Mate(args) => mate::run(args),
         Command::Check(args) => check::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Export(args) => export::run(args),
@@ -62,6 +75,8 @@ fn carry_out(cli: &Cli, words: &[OsString]) -> anyhow::Result<Outcome> {
         Command::Shapes(args) => shapes::run(args),
         Command::Gallery(args) => gallery::run(args, words),
         Command::Run(args) => scene::run(args),
+        Command::Completions(args) => shell::completions(args),
+        Command::Man(args) => shell::man(args),
     }?;
     if let Some(path) = &cli.save_scene {
         scene::save(path, words)?;

@@ -2,10 +2,24 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 /// How often the spinner moves.
 const TICK: Duration = Duration::from_millis(80);
+
+/// Set once, from the command line, before anything is said.
+static QUIET: OnceLock<()> = OnceLock::new();
+
+/// From now on nothing is said but errors.
+pub(crate) fn silence() {
+    let _ = QUIET.set(());
+}
+
+/// Whether only errors may be said.
+pub(crate) fn is_silent() -> bool {
+    QUIET.get().is_some()
+}
 
 /// A line that says what is being done.
 #[derive(Debug)]
@@ -14,7 +28,7 @@ pub(crate) struct Progress(ProgressBar);
 impl Progress {
     /// A spinner, or silence when nobody watches.
     pub(crate) fn new() -> Self {
-        if !std::io::stderr().is_terminal() {
+        if is_silent() || !std::io::stderr().is_terminal() {
             return Self(ProgressBar::hidden());
         }
         let bar = ProgressBar::new_spinner();

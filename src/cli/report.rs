@@ -24,7 +24,7 @@ pub(crate) fn summary(
     let contact = &made.contact.summary;
     let error = made.exact_contact.summary.transmission_error_pitch.as_ref();
     if as_json {
-        let value = json!({
+        let mut value = json!({
             "folder": folder,
             "files": files,
             "verdict": made.verdict(),
@@ -34,7 +34,14 @@ pub(crate) fn summary(
             "teeth": made.teeth,
             "module": made.pair.module,
             "center_distance": made.centrodes.center_distance,
-            "objective": {
+            "transmission_error_p99": error.map(|e| e.p99_deviation),
+            "lost_poses": contact.lost_poses,
+            "contact_ratio": contact.contact_ratio,
+            "simulation": made.proof.as_ref().map(|p| p.runs.iter().map(run_record).collect::<Vec<_>>()),
+            "seconds": elapsed.as_secs_f64(),
+        });
+        if let Some(objective) = objective {
+            value["objective"] = json!({
                 "E": objective.shape + objective.weight * objective.torque,
                 "shape": objective.shape,
                 "torque": objective.torque,
@@ -42,15 +49,15 @@ pub(crate) fn summary(
                 "limiting_cost": objective.limiting_cost,
                 "folding_cost": objective.folding_cost,
                 "total": objective.total,
-            },
-            "resemblance": made.likeness,
-            "transmission_error_p99": error.map(|e| e.p99_deviation),
-            "lost_poses": contact.lost_poses,
-            "contact_ratio": contact.contact_ratio,
-            "simulation": made.proof.as_ref().map(|p| p.runs.iter().map(run_record).collect::<Vec<_>>()),
-            "seconds": elapsed.as_secs_f64(),
-        });
+            });
+        }
+        if made.likeness.iter().any(Option::is_some) {
+            value["resemblance"] = json!(made.likeness);
+        }
         writeln!(out, "{value}")?;
+        return Ok(());
+    }
+    if super::progress::is_silent() {
         return Ok(());
     }
     writeln!(
@@ -63,15 +70,30 @@ pub(crate) fn summary(
         made.pair.module,
         made.centrodes.center_distance
     )?;
-    writeln!(
-        out,
-        "likeness {:.1} % and {:.1} %, E {:.3} (shape {:.3}, torque up to {:.2} times the load)",
-        100.0 * made.likeness[0],
-        100.0 * made.likeness[1],
-        objective.shape + objective.weight * objective.torque,
-        objective.shape,
-        made.centrodes.transmission.max_derivative()
-    )?;
+    let torque = made.centrodes.transmission.max_derivative();
+    match (made.likeness, objective) {
+        ([Some(driver), Some(follower)], Some(objective)) => writeln!(
+            out,
+            "likeness {:.1} % and {:.1} %, E {:.3} (shape {:.3}, torque up to {torque:.2} times the load)",
+            100.0 * driver,
+            100.0 * follower,
+            objective.shape + objective.weight * objective.torque,
+            objective.shape,
+        )?,
+        (likeness, _) => {
+            for (share, name) in likeness.iter().zip(["driver", "follower"]) {
+                if let Some(share) = share {
+                    writeln!(out, "likeness of the {name} {:.1} %", 100.0 * share)?;
+                }
+            }
+            writeln!(
+                out,
+                "psi' {:.3} to {torque:.3}, lean up to {:.1} degrees",
+                made.centrodes.transmission.min_derivative(),
+                made.centrodes.max_lean().to_degrees()
+            )?;
+        }
+    }
     if let Some(error) = error {
         writeln!(
             out,
@@ -201,31 +223,34 @@ fn sections(made: &Design) -> Vec<Section> {
             "of the follower, over the cycle",
         );
     }
-    let fit = Section::new("Fit")
-        .noted_row(
-            "Likeness of the driver",
-            percent(made.likeness[0]),
-            "area of intersection over union",
-        )
-        .noted_row(
-            "Likeness of the follower",
-            percent(made.likeness[1]),
-            "area of intersection over union",
-        )
-        .noted_row(
-            "E",
-            format!("{:.4}", objective.shape + objective.weight * objective.torque),
-            format!(
-                "E_s + {} E_tau, Eq. 11; with the cost of bounds {:.4}",
-                objective.weight, objective.total
-            ),
-        )
-        .noted_row("E_s", format!("{:.4}", objective.shape), "change of shape, Eq. 12")
-        .noted_row(
-            "E_tau",
-            format!("{:.4}", objective.torque),
-            "greatest driver torque over the follower's",
-        )
+    let mut fit = Section::new(if objective.is_some() { "Fit" } else { "Motion" });
+    for (share, name) in made.likeness.iter().zip(["driver", "follower"]) {
+        if let Some(share) = share {
+            fit = fit.noted_row(
+                format!("Likeness of the {name}"),
+                percent(*share),
+                "area of intersection over union",
+            );
+        }
+    }
+    if let Some(objective) = objective {
+        fit = fit
+            .noted_row(
+                "E",
+                format!("{:.4}", objective.shape + objective.weight * objective.torque),
+                format!(
+                    "E_s + {} E_tau, Eq. 11; with the cost of bounds {:.4}",
+                    objective.weight, objective.total
+                ),
+            )
+            .noted_row("E_s", format!("{:.4}", objective.shape), "change of shape, Eq. 12")
+            .noted_row(
+                "E_tau",
+                format!("{:.4}", objective.torque),
+                "greatest driver torque over the follower's",
+            );
+    }
+    let fit = fit
         .noted_row(
             "Steepest lean",
             degrees(made.centrodes.max_lean()),

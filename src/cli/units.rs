@@ -1,6 +1,7 @@
 //! Lengths and angles as people type them.
 
 use centrode::gallery::Shard;
+use centrode::fit::Ratio;
 use centrode::geometry::Point;
 use centrode::solid::Bore;
 
@@ -77,6 +78,20 @@ pub(crate) fn ratio(text: &str) -> Result<f64, String> {
         (Ok(over), Ok(under)) if (over / under).is_finite() => Ok(over / under),
         _ => Err(failed()),
     }
+}
+
+/// A ratio in whole turns: `2`, `1/3`, `3:2`, `3/2`.
+pub(crate) fn turns(text: &str) -> Result<Ratio, String> {
+    let (driver, follower) =
+        text.split_once(':').or_else(|| text.split_once('/')).unwrap_or((text, "1"));
+    let count = |part: &str| part.trim().parse::<u32>().ok();
+    let made = count(driver).zip(count(follower)).and_then(|(m, n)| Ratio::rational(m, n).ok());
+    made.ok_or_else(|| {
+        format!(
+            "'{text}' is not a ratio of whole turns up to {}; write it like 2, 1/3 or 3:2",
+            centrode::policy::MAX_RATIO
+        )
+    })
 }
 
 /// A point in mm from `x,y`.
@@ -160,6 +175,22 @@ mod tests {
         assert!(positive_length("0").is_err() && positive_length("-3mm").is_err());
         assert!(length("nan").is_err() && length("abc").is_err());
         assert!(center_distance("lego:0").is_err() && center_distance("lego:x").is_err());
+    }
+
+    #[test]
+    fn turns_of_both_gears() {
+        assert_eq!(turns("3:2"), Ok(Ratio::rational(3, 2).unwrap()));
+        assert_eq!(turns("6/4"), turns("3:2"));
+        assert_eq!(
+            (turns("2"), turns("1/3")),
+            (
+                Ratio::integer(2).map_err(|_| String::new()),
+                Ratio::reciprocal(3).map_err(|_| String::new())
+            )
+        );
+        for text in ["0", "1.5", "3:0", "-2", "", "1000:1", "a:b"] {
+            assert!(turns(text).unwrap_err().contains("3:2"), "{text}");
+        }
     }
 
     #[test]

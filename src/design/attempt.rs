@@ -1,14 +1,14 @@
 //! One try at a pair: settings, the gears they give, and how good those are.
 
+use super::source::Source;
 use super::{
     Design, DesignError, DesignOptions, Scale, TeethStyle, ToothCount, bore_for, feasibility,
     placed_gear, placed_input,
 };
 use crate::assembly::{Assembly, Gear};
-use crate::fit::{self, Fit};
+use crate::fit;
 use crate::geometry::{self, Point};
 use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
-use crate::outline::Shape;
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
 use crate::solid::{carve_follower_with_manifold, circle};
@@ -21,12 +21,14 @@ pub(super) struct Settings {
     /// Bound on curvature times module.
     curvature: f64,
     max_lean: f64,
+    /// Whether the motion is taken as it is, without bounds.
+    exact: bool,
 }
 
 impl Settings {
     /// The same with the lean held `k` steps below what these allow.
     pub(super) fn with_less_lean(&self, k: usize) -> Self {
-        Self { max_lean: self.max_lean - k as f64 * policy::LEAN_REPAIR, ..*self }
+        Self { max_lean: self.max_lean - k as f64 * policy::LEAN_REPAIR, exact: false, ..*self }
     }
 
     /// Steepest lean allowed, radians.
@@ -35,13 +37,14 @@ impl Settings {
     }
 
     /// The settings asked for, the number of teeth chosen if it was left open.
-    pub(super) fn first(fit: &Fit, options: &DesignOptions) -> Result<Self, DesignError> {
-        let transmission = &fit.transmission;
-        let folds = (transmission.driver_fold(), transmission.follower_fold());
+    pub(super) fn first(source: &Source<'_>, options: &DesignOptions) -> Result<Self, DesignError> {
+        let transmission = &source.transmission;
+        let folds = source.folds();
         let mut settings = Self {
             teeth: 0,
             curvature: policy::CURVATURE_TIMES_MODULE,
             max_lean: options.fit.limits.max_lean,
+            exact: source.exact,
         };
         let perimeter = |centrodes: &Centrodes| centrodes.perimeter().0;
         match options.teeth {
@@ -64,14 +67,20 @@ impl Settings {
                 let centrodes = scaled(transmission.clone(), options, None);
                 let most =
                     perimeter(&centrodes) / (std::f64::consts::PI * policy::SMALLEST_CHOSEN_MODULE);
+                let bend = if source.exact { source.bend() } else { 0.0 };
                 for count in policy::TOOTH_COUNTS {
                     let count = whole_teeth(f64::from(count), folds);
                     if settings.teeth != 0 && f64::from(count) > most {
                         break;
                     }
                     settings.teeth = count;
-                    let (_, cost) = fit::apply(&fit.raw, folds, &settings.limits(options))?;
-                    if cost.shape - fit.limited.shape < policy::ROUNDING_ACCEPTED {
+                    let follows = if source.exact {
+                        bend <= settings.curvature * std::f64::consts::PI * f64::from(count)
+                    } else {
+                        let (_, cost) = fit::apply(&source.raw, folds, &settings.limits(options))?;
+                        cost.shape - source.limited.shape < policy::ROUNDING_ACCEPTED
+                    };
+                    if follows {
                         break;
                     }
                 }
@@ -106,6 +115,15 @@ impl Settings {
     /// Settings that ask less of the teeth, and what they change.
     pub(super) fn gentler(&self, last: &Attempt) -> (Self, String) {
         let mut next = *self;
+        if self.exact {
+            next.exact = false;
+            let said = format!(
+                "lean held to {:.0} degrees and pitch curves rounded to a radius of {:.2} modules",
+                next.max_lean.to_degrees(),
+                1.0 / next.curvature
+            );
+            return (next, said);
+        }
         let lean = last.centrodes.max_lean();
         if lean > policy::LEAN_WORTH_REDUCING && self.curvature < policy::CURVATURE_TIMES_MODULE {
             next.max_lean = (lean - policy::LEAN_REPAIR).min(self.max_lean);
@@ -162,13 +180,19 @@ pub(super) struct Attempt {
 
 impl Attempt {
     pub(super) fn make(
-        fit: &Fit,
+        source: &Source<'_>,
         options: &DesignOptions,
         settings: Settings,
     ) -> Result<Self, DesignError> {
-        let folds = (fit.transmission.driver_fold(), fit.transmission.follower_fold());
-        let (samples, rounding) = fit::apply(&fit.raw, folds, &settings.limits(options))?;
-        let transmission = Transmission::from_derivative(&samples, folds.0, folds.1)?;
+        let (transmission, rounding) = if settings.exact {
+            (source.transmission.clone(), source.limited)
+        } else {
+            let folds = source.folds();
+            let (samples, rounding) = fit::apply(&source.raw, folds, &settings.limits(options))?;
+            let samples =
+                if source.symmetric { fit::symmetrised(&samples)?.samples } else { samples };
+            (Transmission::from_derivative(&samples, folds.0, folds.1)?, rounding)
+        };
         let centrodes = scaled(transmission, options, Some(settings.teeth));
         let module = centrodes.perimeter().0 / (std::f64::consts::PI * f64::from(settings.teeth));
         let teeth_options = TeethOptions {
@@ -373,8 +397,7 @@ impl Attempt {
 
     pub(super) fn finish(
         self,
-        shapes: [&Shape; 2],
-        fit: Fit,
+        source: &Source<'_>,
         options: &DesignOptions,
         mut steps: Vec<String>,
     ) -> Result<Design, DesignError> {
@@ -384,18 +407,25 @@ impl Attempt {
             .unwrap_or(TeethOptions::default().root_clearance * self.pair.module);
         let dedendum = options.addendum * self.pair.module + root;
         warnings.extend(feasibility::warnings(&self.centrodes, &self.pair, dedendum));
-        if fit.limited.shape > policy::LIMIT_WORTH_SAYING {
+        if source.limited.shape > policy::LIMIT_WORTH_SAYING {
             steps.insert(0, format!(
                 "bounds on lean and torque changed the pitch curves by {:.3} in the measure of E_s (lean {:.0} to {:.0} degrees)",
-                fit.limited.shape,
-                fit.limited.lean.0.to_degrees(),
-                fit.limited.lean.1.to_degrees()
+                source.limited.shape,
+                source.limited.lean.0.to_degrees(),
+                source.limited.lean.1.to_degrees()
             ));
         }
-        let rounded = self.rounding.shape - fit.limited.shape;
+        let rounded = self.rounding.shape - source.limited.shape;
         if rounded > policy::LIMIT_WORTH_SAYING {
             steps.push(format!(
                 "corners too sharp for the teeth were rounded: {rounded:.3} in the measure of E_s"
+            ));
+        }
+        if source.exact && !self.settings.exact {
+            let strays = source.strays(&self.centrodes.transmission);
+            steps.push(format!(
+                "the motion was changed by up to {:.2} degrees of the follower so that teeth can follow it",
+                strays.to_degrees()
             ));
         }
         if self.relief.0 > 0 {
@@ -414,18 +444,21 @@ impl Attempt {
             self.centrodes.driver_curve(policy::PITCH_CURVE_POINTS),
             self.centrodes.follower_curve(policy::PITCH_CURVE_POINTS),
         ];
-        let fitted = [&fit.driver, &fit.follower];
-        let mut likeness = [0.0; 2];
+        let mut likeness = [None; 2];
         let mut gears = Vec::new();
         for (i, name) in ["driver", "follower"].into_iter().enumerate() {
-            let input = placed_input(shapes[i], fitted[i], &curves[i]);
-            likeness[i] = geometry::intersection_over_union(&curves[i], &input);
-            if likeness[i] < policy::POOR_LIKENESS {
-                warnings.push(format!(
-                    "the {name} keeps only {:.0} % of the likeness of {}: the shape is too thin or too deeply cut for a gear",
-                    100.0 * likeness[i],
-                    shapes[i].name
-                ));
+            let input = source.drawings[i]
+                .map_or_else(Vec::new, |d| placed_input(d.shape, &d.gear, &curves[i]));
+            if let Some(drawn) = &source.drawings[i] {
+                let share = geometry::intersection_over_union(&curves[i], &input);
+                likeness[i] = Some(share);
+                if share < policy::POOR_LIKENESS {
+                    warnings.push(format!(
+                        "the {name} keeps only {:.0} % of the likeness of {}: the shape is too thin or too deeply cut for a gear",
+                        100.0 * share,
+                        drawn.shape.name
+                    ));
+                }
             }
             let outline = self.finished[i].points.clone();
             let bore = bore_for(options.bore, &outline, &mut warnings, name)?;
@@ -453,7 +486,7 @@ impl Attempt {
             .collect();
         let faults = self.faults();
         Ok(Design {
-            names: shapes.map(|s| s.name.clone()),
+            names: source.names.clone(),
             options: options.clone(),
             assembly: Assembly {
                 gears,
@@ -462,7 +495,8 @@ impl Attempt {
                 meshes: vec![[0, 1]],
                 axles: Vec::new(),
             },
-            fit,
+            fit: source.fit.clone(),
+            drawings: source.drawings.map(|d| d.map(|d| d.gear)),
             centrodes: self.centrodes,
             teeth,
             pair: self.pair,

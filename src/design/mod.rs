@@ -1,40 +1,46 @@
-//! The pipeline: two shapes in, a finished pair of gears out.
+//! The pipeline: two shapes, one shape, or a motion in, a finished pair of gears out.
 
 mod attempt;
 mod feasibility;
 mod options;
 mod record;
 mod saved;
+mod source;
 mod train_file;
 
 pub use options::{BoreChoice, DesignError, DesignOptions, Scale, TeethStyle, ToothCount};
 pub use record::{Record, run_record};
 pub use saved::{RECORD_NAME, SavedDesign, SavedError};
+pub use source::Drawn;
 pub use train_file::{TrainFileError, read_train};
 
 use crate::assembly::{Assembly, Gear, PlacedGear};
-use crate::fit::{self, Fit, FittedGear, Objective};
+use crate::fit::{self, Fit, FittedGear, Objective, Ratio};
 use crate::geometry::{self, Point};
 use crate::meshing::{
     ContactAnalysis, ContactInput, DynamicsError, DynamicsInput, DynamicsOptions, Limits,
     MeshingReport, Reason, prove,
 };
 use crate::outline::Shape;
-use crate::pitch::Centrodes;
+use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
 use crate::solid::{Bore, fits};
 use crate::teeth::ToothedPair;
 use attempt::{Attempt, Settings};
+use source::Source;
 
 /// A finished pair of gears and everything that is known of it. Lengths in mm, angles in radians.
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// Names of the two shapes.
+    /// Names of the two gears: of their shapes, or what their motion is called.
     pub names: [String; 2],
     /// What the design was told.
     pub options: DesignOptions,
-    /// The fit before its curves were rounded for teeth; lengths for centre distance 1.
-    pub fit: Fit,
+    /// The fit of two shapes before its curves were rounded for teeth; lengths for centre distance 1.
+    /// None for a pair made from a motion or from one shape.
+    pub fit: Option<Fit>,
+    /// Where each gear's drawing lies in it, for centre distance 1; none for a gear without a drawing.
+    pub drawings: [Option<FittedGear>; 2],
     /// The pitch curves that carry the teeth.
     pub centrodes: Centrodes,
     /// Teeth of driver and follower.
@@ -43,8 +49,9 @@ pub struct Design {
     pub pair: ToothedPair,
     /// The gears with clearance and bores, on their axes, with one cycle of motion.
     pub assembly: Assembly,
-    /// Likeness of pitch curve and drawing, driver and follower: area of intersection over union.
-    pub likeness: [f64; 2],
+    /// Likeness of pitch curve and drawing, driver and follower: area of intersection over union. None for a gear
+    /// without a drawing.
+    pub likeness: [Option<f64>; 2],
     /// Contact without clearance: the error of the teeth themselves.
     pub exact_contact: ContactAnalysis,
     /// Contact of the finished gears.
@@ -104,10 +111,10 @@ impl Design {
         feasibility::tally(&self.pair.records)
     }
 
-    /// E and its parts.
+    /// E and its parts, of a pair that was fitted to two shapes.
     #[must_use]
-    pub fn objective(&self) -> &Objective {
-        &self.fit.objective
+    pub fn objective(&self) -> Option<&Objective> {
+        self.fit.as_ref().map(|fit| &fit.objective)
     }
 }
 
@@ -123,9 +130,62 @@ pub fn design(
 ) -> Result<Design, DesignError> {
     check(options)?;
     let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
+    made_from(&Source::fitted([driver, follower], fit, options.fit.symmetric), options)
+}
+
+/// Designs a pair of gears that moves as `transmission` says, at the size that `options` give.
+///
+/// The motion is kept as it is: bounds on lean and curvature come in only where no teeth follow it, and
+/// [`Design::steps`] then says by how much it was changed. [`DesignOptions::ratio`] is taken from the motion;
+/// what `options` say of fitting is otherwise not used. `drawings` are shown behind the gears and measured for
+/// likeness, where there are any.
+///
+/// # Errors
+/// As [`design`].
+///
+/// ```
+/// use centrode::design::{DesignOptions, from_motion};
+/// use centrode::law::{LawOptions, Preset};
+///
+/// let motion = Preset::Ellipse(0.3).transmission(&LawOptions::default())?;
+/// let names = ["ellipse", "its twin"].map(str::to_owned);
+/// let made = from_motion(motion, names, [None, None], &DesignOptions::default())?;
+/// assert!(made.is_sound());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn from_motion(
+    transmission: Transmission,
+    names: [String; 2],
+    drawings: [Option<Drawn<'_>>; 2],
+    options: &DesignOptions,
+) -> Result<Design, DesignError> {
+    let source = Source::motion(transmission, names, drawings);
+    source::check(&source)?;
+    let ratio =
+        Ratio::of_folds(source.transmission.driver_fold(), source.transmission.follower_fold());
+    let options = DesignOptions { ratio, ..options.clone() };
+    check(&options)?;
+    made_from(&source, &options)
+}
+
+/// Designs a gear from one shape, and computes its mate.
+///
+/// The shape turns about [`fit::FitOptions::driver_axis`], or about the point inside it that costs least: bounds on lean
+/// and torque, greatest torque, and parts hidden from the axis.
+///
+/// # Errors
+/// As [`design`].
+pub fn mate(shape: &Shape, options: &DesignOptions) -> Result<Design, DesignError> {
+    check(options)?;
+    let mated = fit::mate(&shape.outline, options.ratio, &options.fit)?;
+    made_from(&Source::mated(shape, mated), options)
+}
+
+/// Teeth, analysis, repairs, proof.
+fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, DesignError> {
     let mut steps = Vec::new();
-    let mut settings = Settings::first(&fit, options)?;
-    let mut best = Attempt::make(&fit, options, settings)?;
+    let mut settings = Settings::first(source, options)?;
+    let mut best = Attempt::make(source, options, settings)?;
     if options.repair {
         for _ in 0..policy::REPAIRS {
             if best.is_good() {
@@ -136,7 +196,7 @@ pub fn design(
             }
             let (next, said) = settings.gentler(&best);
             settings = next;
-            let attempt = Attempt::make(&fit, options, settings)?;
+            let attempt = Attempt::make(source, options, settings)?;
             if attempt.badness() < best.badness() {
                 steps.push(format!(
                     "{said}: transmission error {:.2} % of a pitch instead of {:.2} %",
@@ -149,7 +209,7 @@ pub fn design(
     }
     let settings = best.settings();
     let best = best.confirmed(options)?;
-    let mut made = best.finish([driver, follower], fit.clone(), options, steps.clone())?;
+    let mut made = best.finish(source, options, steps.clone())?;
     if made.is_sound() {
         made.simulate(&options.runs)?;
     }
@@ -158,14 +218,14 @@ pub fn design(
             break;
         }
         let gentler = settings.with_less_lean(k);
-        let attempt = Attempt::make(&fit, options, gentler)?.confirmed(options)?;
+        let attempt = Attempt::make(source, options, gentler)?.confirmed(options)?;
         let mut steps = steps.clone();
         steps.push(format!(
             "lean held to {:.0} degrees, for the first pair failed when it was run: {}",
             gentler.max_lean().to_degrees(),
             made.faults.join("; ")
         ));
-        let mut next = attempt.finish([driver, follower], fit.clone(), options, steps)?;
+        let mut next = attempt.finish(source, options, steps)?;
         if next.is_sound() {
             next.simulate(&options.runs)?;
         }

@@ -119,7 +119,14 @@ impl DesignOptions {
     }
 }
 
-/// Why two shapes did not become gears.
+impl Default for DesignOptions {
+    /// The defaults for a pair that turns equally often.
+    fn default() -> Self {
+        Self::new(Ratio::ONE)
+    }
+}
+
+/// Why shapes or a motion did not become gears.
 #[derive(Debug, thiserror::Error)]
 pub enum DesignError {
     /// An option lies outside its range.

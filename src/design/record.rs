@@ -20,8 +20,14 @@ pub struct Record {
     driver: GearRecord,
     follower: GearRecord,
     motion: Motion,
-    objective: ObjectiveRecord,
+    /// Of pairs that were fitted to two shapes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    objective: Option<ObjectiveRecord>,
+    #[serde(skip_serializing_if = "Resemblance::is_empty")]
     resemblance: Resemblance,
+    /// Of pairs that were not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    law: Option<Law>,
     meshing: Meshing,
     settings: Settings,
 }
@@ -33,7 +39,8 @@ struct GearRecord {
     outline: Vec<[f64; 2]>,
     bore: Option<Vec<[f64; 2]>>,
     input: Vec<[f64; 2]>,
-    rotation_center_in_input: [f64; 2],
+    /// Null for a gear that has no drawing, whose `input` is then empty.
+    rotation_center_in_input: Option<[f64; 2]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -60,10 +67,28 @@ struct ObjectiveRecord {
     total: f64,
 }
 
+/// Left out for a gear that has no drawing.
 #[derive(Debug, Serialize)]
 struct Resemblance {
-    driver_iou: f64,
-    follower_iou: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    driver_iou: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    follower_iou: Option<f64>,
+}
+
+impl Resemblance {
+    fn is_empty(&self) -> bool {
+        self.driver_iou.is_none() && self.follower_iou.is_none()
+    }
+}
+
+/// The motion as the gears have it.
+#[derive(Debug, Serialize)]
+struct Law {
+    /// psi' at even driver angles over one period, from driver angle 0.
+    derivative: Vec<f64>,
+    /// Periods in a turn of the driver and of the follower.
+    folds: [u32; 2],
 }
 
 #[derive(Debug, Serialize)]
@@ -116,7 +141,8 @@ impl Record {
         let exact = design.exact_contact.summary.transmission_error_pitch.as_ref();
         let summary = &design.contact.summary;
         let gears = &design.assembly.gears;
-        let objective = design.objective();
+        let transmission = &design.centrodes.transmission;
+        let center = |i: usize| design.drawings[i].map(|d| d.center_in_input);
         Self {
             centrode: env!("CARGO_PKG_VERSION"),
             units: "mm",
@@ -125,13 +151,13 @@ impl Record {
             center_distance: design.centrodes.center_distance,
             module: design.pair.module,
             thickness: design.assembly.thickness,
-            driver: gear_record(&gears[0], design.fit.driver.center_in_input),
-            follower: gear_record(&gears[1], design.fit.follower.center_in_input),
+            driver: gear_record(&gears[0], center(0)),
+            follower: gear_record(&gears[1], center(1)),
             motion: Motion {
                 driver_angle: design.assembly.driver_angle.clone(),
                 follower_angle: gears[1].angle.iter().map(|a| 0.0 - a).collect(),
             },
-            objective: ObjectiveRecord {
+            objective: design.objective().map(|objective| ObjectiveRecord {
                 E: objective.shape + objective.weight * objective.torque,
                 shape: objective.shape,
                 torque: objective.torque,
@@ -139,11 +165,15 @@ impl Record {
                 limiting_cost: objective.limiting_cost,
                 folding_cost: objective.folding_cost,
                 total: objective.total,
-            },
+            }),
             resemblance: Resemblance {
                 driver_iou: design.likeness[0],
                 follower_iou: design.likeness[1],
             },
+            law: design.fit.is_none().then(|| Law {
+                derivative: transmission.samples().to_vec(),
+                folds: [transmission.driver_fold(), transmission.follower_fold()],
+            }),
             meshing: Meshing {
                 verdict: design.verdict(),
                 faults: design.faults.clone(),
@@ -197,7 +227,7 @@ impl Design {
     }
 }
 
-fn gear_record(placed: &PlacedGear, center: Point) -> GearRecord {
+fn gear_record(placed: &PlacedGear, center: Option<Point>) -> GearRecord {
     let plain = |points: &[Point]| points.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
     let gear = &placed.gear;
     GearRecord {
@@ -206,7 +236,7 @@ fn gear_record(placed: &PlacedGear, center: Point) -> GearRecord {
         outline: plain(&gear.outline),
         bore: gear.bore.as_deref().map(plain),
         input: plain(&gear.input),
-        rotation_center_in_input: [center.x, center.y],
+        rotation_center_in_input: center.map(|c| [c.x, c.y]),
     }
 }
 

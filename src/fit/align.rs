@@ -128,6 +128,16 @@ impl Aligner {
         spectrum
     }
 
+    /// Delta at one shift, in samples of the long gear's turn.
+    pub(super) fn at(&self, short: &ShortSpectrum, long: &LongSpectrum, shift: usize) -> Alignment {
+        let ring = long.law.iter().chain(&long.law).skip(shift);
+        let shared: f64 = short.law.iter().zip(ring).map(|(a, b)| a * b).sum();
+        // The scale is that of an inverse transform that is not normalised.
+        let delta = long.offset[shift] - long.scale[shift] * self.long_len as f64 * shared;
+        let over_turn = TAU / self.short_len as f64;
+        Alignment { delta: ((delta + short.energy) * over_turn).max(0.0), shift }
+    }
+
     /// The shift of least Delta among every `stride`-th.
     pub(super) fn best(
         &self,
@@ -188,6 +198,8 @@ mod tests {
             let fast = aligner.best(&short, &long, 1, &mut aligner.scratch());
             assert_eq!(fast.shift, slow.0);
             assert!((fast.delta - slow.1).abs() < 1e-12);
+            let known = aligner.at(&short, &long, slow.0);
+            assert!(known.shift == slow.0 && (known.delta - slow.1).abs() < 1e-12);
             let charged = aligner.long(b.clone(), 1.0, true);
             for s in [0, 7, n / 2] {
                 let window: Vec<f64> = charged.window(s, n, 1.0).collect();

@@ -99,10 +99,12 @@ fn refined(
     steps: &Steps,
     evaluations: usize,
 ) -> Candidate {
-    let unpack = |x: &[f64; 5]| Candidate {
-        driver: Point::new(x[0], x[1]),
-        follower: Point::new(x[2], x[3]),
-        shift: x[4],
+    let unpack = |x: &[f64; 5]| {
+        problem.pinned(Candidate {
+            driver: Point::new(x[0], x[1]),
+            follower: Point::new(x[2], x[3]),
+            shift: x[4],
+        })
     };
     let (d, f) = (start.driver, start.follower);
     let at = [d.x, d.y, f.x, f.y, start.shift];
@@ -120,8 +122,12 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
         Role::Follower => (Role::Follower, Role::Driver),
     };
     let points = |role| if role == Role::Driver { problem.driver } else { problem.follower };
-    let (short_grid, short_spacing) = interior_grid(points(short_role), policy::GRID_CENTERS);
-    let (long_grid, long_spacing) = interior_grid(points(long_role), policy::GRID_CENTERS);
+    let grid = |role| {
+        let (grid, spacing) = interior_grid(points(role), policy::GRID_CENTERS);
+        (problem.fixed.axis(role).map_or(grid, |axis| vec![axis]), spacing)
+    };
+    let (short_grid, short_spacing) = grid(short_role);
+    let (long_grid, long_spacing) = grid(long_role);
     let shorts: Vec<(Point, ShortSpectrum)> = short_grid
         .into_par_iter()
         .filter_map(|c| Some((c, aligner.short(problem.whole_turn(short_role, c).ok()?))))
@@ -130,6 +136,12 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
         .into_par_iter()
         .filter_map(|c| Some((c, aligner.long(problem.whole_turn(long_role, c).ok()?, mean, true))))
         .collect();
+    let followers: Vec<Point> = match short_role {
+        Role::Driver => longs.iter().map(|l| l.0).collect(),
+        Role::Follower => shorts.iter().map(|s| s.0).collect(),
+    };
+    let shifts: Vec<Option<usize>> =
+        followers.par_iter().map(|f| problem.fixed_shift_samples(*f)).collect();
     let mut pairs: Vec<Pair> = shorts
         .par_iter()
         .enumerate()
@@ -138,7 +150,11 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
             |scratch, (i, (_, short))| {
                 let mut row: Vec<Pair> = Vec::new();
                 for (j, (_, long)) in longs.iter().enumerate() {
-                    let at = aligner.best(short, long, 1, scratch);
+                    let follower = if short_role == Role::Driver { j } else { i };
+                    let at = match shifts[follower] {
+                        Some(shift) => aligner.at(short, long, shift),
+                        None => aligner.best(short, long, 1, scratch),
+                    };
                     let bound = at.delta + problem.weight * mean;
                     if row
                         .last()
@@ -202,10 +218,10 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
     }
     let candidates = kept.into_iter().map(|(short, long, shift)| {
         let shift = shift as f64 * problem.step();
-        match short_role {
+        problem.pinned(match short_role {
             Role::Driver => Candidate { driver: short, follower: long, shift },
             Role::Follower => Candidate { driver: long, follower: short, shift },
-        }
+        })
     });
     let spacing = match short_role {
         Role::Driver => (short_spacing, long_spacing),
@@ -215,7 +231,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
 }
 
 /// At least `count` points of a square grid inside the polygon, and the grid's spacing.
-fn interior_grid(points: &[Point], count: usize) -> (Vec<Point>, f64) {
+pub(super) fn interior_grid(points: &[Point], count: usize) -> (Vec<Point>, f64) {
     let (low, high) = geometry::bounds(points);
     let size = high - low;
     let mut spacing = (geometry::area(points) / count as f64).sqrt();
@@ -241,7 +257,7 @@ fn interior_grid(points: &[Point], count: usize) -> (Vec<Point>, f64) {
 }
 
 /// At most [`policy::SCAN_VERTICES`] of the vertices, evenly taken.
-fn thinned(points: &[Point]) -> Vec<Point> {
+pub(super) fn thinned(points: &[Point]) -> Vec<Point> {
     let stride = points.len().div_ceil(policy::SCAN_VERTICES);
     points.iter().copied().step_by(stride.max(1)).collect()
 }

@@ -76,6 +76,22 @@ impl Law {
         (0..n).map(|i| walk.at(i as f64 * step).1).collect()
     }
 
+    /// Driver angle, within one own turn, at which the own direction `direction` is at the pitch point.
+    pub(super) fn moment_of(&self, direction: f64) -> f64 {
+        if self.role == Role::Driver {
+            return (-direction).rem_euclid(TAU);
+        }
+        let n = self.own.len();
+        let step = TAU / n as f64;
+        let u = direction.rem_euclid(TAU) / step;
+        let whole = (u as usize).min(n - 1);
+        let t = u - whole as f64;
+        let ends = |i: usize| (self.own[i], self.own[(i + 1) % n]);
+        let before: f64 = (0..whole).map(ends).map(|(a, b)| 0.5 * (a + b)).sum();
+        let (a, b) = ends(whole);
+        step * (before + t * (a + 0.5 * t * (b - a)))
+    }
+
     fn walk(&self, start: f64) -> Walk<'_> {
         let turns = (start / self.turn).floor();
         Walk { law: self, start: start - turns * self.turn, i: 0, wraps: 0.0, before: 0.0 }
@@ -170,5 +186,8 @@ mod tests {
             let turned = (ways[i] - exact.psi(phi)).rem_euclid(TAU);
             assert!(turned.min(TAU - turned) < 1e-5);
         }
+        let moment = law.moment_of(ways[300]);
+        let off = (moment - (-5.0 + step * 300.0)).rem_euclid(TAU / 3.0);
+        assert!(off.min(TAU / 3.0 - off) < 1e-9, "{off}");
     }
 }

@@ -11,16 +11,20 @@ mod global_search;
 mod laws;
 mod limits;
 mod lipschitz;
+mod mate;
 mod objective;
 mod paper_search;
 mod placement;
 mod ratio;
 mod refine;
+mod symmetric;
 
 pub use limits::{LimitCost, LimitError, Limits, apply};
-pub use objective::Objective;
+pub use mate::{Mated, mate};
+pub use objective::{Fixed, Objective};
 pub use placement::{FittedGear, Similarity};
 pub use ratio::{Ratio, RatioError};
+pub use symmetric::{Symmetric, symmetrised};
 
 use crate::outline::Outline;
 use crate::pitch::{PolarError, Transmission, TransmissionError};
@@ -49,6 +53,10 @@ pub struct FitOptions {
     pub limits: Limits,
     /// Samples of one period of psi' (the paper's N).
     pub samples: usize,
+    /// What the search may not choose.
+    pub fixed: Fixed,
+    /// Whether both gears must have the same pitch curve; both shapes must then be one, and the ratio 1.
+    pub symmetric: bool,
 }
 
 impl Default for FitOptions {
@@ -59,6 +67,8 @@ impl Default for FitOptions {
             weight: policy::DEFAULT_TORQUE_WEIGHT,
             limits: Limits::default(),
             samples: policy::DEFAULT_FIT_SAMPLES,
+            fixed: Fixed::default(),
+            symmetric: false,
         }
     }
 }
@@ -90,6 +100,25 @@ pub enum FitError {
         /// Most allowed at this ratio.
         most: usize,
     },
+    /// Two shapes at a ratio that is neither whole nor the reciprocal of a whole number.
+    #[error(
+        "two shapes cannot be fitted at a ratio of {ratio}; give a whole number or the reciprocal of one, or make the pair from a motion or from one shape"
+    )]
+    Rational {
+        /// Ratio asked for.
+        ratio: Ratio,
+    },
+    /// Two shapes or a ratio that cannot give equal gears.
+    #[error(
+        "both gears can be the same curve only {need}; name one shape twice and keep the ratio 1, or do not ask for symmetry"
+    )]
+    Symmetric {
+        /// What is not given.
+        need: &'static str,
+    },
+    /// A fixed axis or angle is not a number.
+    #[error("a fixed axis or orientation is not a finite number; correct it or leave it out")]
+    FixedNotFinite,
     /// No rotation centre inside a shape makes a pair.
     #[error(
         "no pair of rotation centres inside the shapes makes a law; use shapes that are less thin"
@@ -138,6 +167,24 @@ pub fn fit(
     options: &FitOptions,
 ) -> Result<Fit, FitError> {
     check(ratio, options)?;
+    if !ratio.is_whole() {
+        return Err(FitError::Rational { ratio });
+    }
+    if options.symmetric {
+        let need = if ratio != Ratio::ONE {
+            Some("at a ratio of 1")
+        } else if driver != follower {
+            Some("if both are made from one shape")
+        } else if options.fixed.orientation.is_some() {
+            Some("in a pose that is found, not fixed")
+        } else {
+            None
+        };
+        return match need {
+            Some(need) => Err(FitError::Symmetric { need }),
+            None => symmetric::fit_symmetric(driver, options),
+        };
+    }
     let shapes = (driver.points(), follower.points());
     let problem = objective::Problem::new(
         shapes,
@@ -145,7 +192,16 @@ pub fn fit(
         &options.limits,
         (options.weight, options.balance),
         options.samples,
-    );
+    )
+    .with_fixed(options.fixed);
+    for (role, axis) in [
+        (laws::Role::Driver, options.fixed.driver_axis),
+        (laws::Role::Follower, options.fixed.follower_axis),
+    ] {
+        if let Some(axis) = axis {
+            problem.law(role, axis)?;
+        }
+    }
     // Impossible limits should be said at once, not found in every candidate.
     let even = [1.0; policy::MIN_TRANSMISSION_SAMPLES];
     apply(&even, problem.folds(), &options.limits)?;
@@ -164,6 +220,9 @@ fn check(ratio: Ratio, options: &FitOptions) -> Result<(), FitError> {
     }
     if !(weight >= 0.0 && weight.is_finite()) {
         return Err(FitError::Weight { weight });
+    }
+    if !options.fixed.is_finite() {
+        return Err(FitError::FixedNotFinite);
     }
     let windows = ratio.driver_fold().max(ratio.follower_fold()) as usize;
     let (least, most) = (policy::FIT_SAMPLES_LEAST, policy::FIT_SAMPLES_MOST / windows);

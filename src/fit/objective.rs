@@ -1,6 +1,6 @@
 //! The objective E of Eq. 11 for one choice of centres and shift.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::laws::{Law, Role, directions};
 use super::limits::{LimitCost, Limits, apply};
@@ -16,6 +16,34 @@ pub(super) struct Candidate {
     pub(super) shift: f64,
 }
 
+/// Choices that a search may not change.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fixed {
+    /// Axis of the driver, in its drawing's coordinates.
+    pub driver_axis: Option<Point>,
+    /// Axis of the follower, in its drawing's coordinates.
+    pub follower_axis: Option<Point>,
+    /// How far the follower's drawing is turned (radians, counter-clockwise) while the driver's stands upright,
+    /// on average over the cycle.
+    pub orientation: Option<f64>,
+}
+
+impl Fixed {
+    pub(super) fn is_finite(&self) -> bool {
+        let known = |p: Option<Point>| p.is_none_or(|p| p.x.is_finite() && p.y.is_finite());
+        known(self.driver_axis)
+            && known(self.follower_axis)
+            && self.orientation.is_none_or(f64::is_finite)
+    }
+
+    pub(super) fn axis(&self, role: Role) -> Option<Point> {
+        match role {
+            Role::Driver => self.driver_axis,
+            Role::Follower => self.follower_axis,
+        }
+    }
+}
+
 /// Two shapes and all that judging a pair of centres needs, at one resolution.
 pub(super) struct Problem<'a> {
     pub(super) driver: &'a [Point],
@@ -27,6 +55,7 @@ pub(super) struct Problem<'a> {
     pub(super) balance: f64,
     /// Samples of one period.
     pub(super) samples: usize,
+    pub(super) fixed: Fixed,
     driver_rays: Vec<Vector>,
     follower_rays: Vec<Vector>,
 }
@@ -77,6 +106,7 @@ impl<'a> Problem<'a> {
             weight,
             balance,
             samples,
+            fixed: Fixed::default(),
             driver_rays: rays(ratio.driver_fold()),
             follower_rays: rays(ratio.follower_fold()),
         }
@@ -89,6 +119,7 @@ impl<'a> Problem<'a> {
         samples: usize,
     ) -> Problem<'a> {
         Problem::new(shapes, self.ratio, self.limits, (self.weight, self.balance), samples)
+            .with_fixed(self.fixed)
     }
 
     /// The same under other limits.
@@ -98,6 +129,41 @@ impl<'a> Problem<'a> {
     {
         let shapes: (&'b [Point], &'b [Point]) = (self.driver, self.follower);
         Problem::new(shapes, self.ratio, limits, (self.weight, self.balance), self.samples)
+            .with_fixed(self.fixed)
+    }
+
+    /// The same with choices that are not to be searched.
+    pub(super) fn with_fixed(mut self, fixed: Fixed) -> Self {
+        self.fixed = fixed;
+        self
+    }
+
+    /// The candidate with whatever is fixed put in its place.
+    pub(super) fn pinned(&self, candidate: Candidate) -> Candidate {
+        let fixed = &self.fixed;
+        let follower = fixed.follower_axis.unwrap_or(candidate.follower);
+        Candidate {
+            driver: fixed.driver_axis.unwrap_or(candidate.driver),
+            follower,
+            shift: self.fixed_shift(follower).unwrap_or(candidate.shift),
+        }
+    }
+
+    /// The shift that lets the follower's drawing begin at the fixed orientation, if there is one.
+    pub(super) fn fixed_shift(&self, follower: Point) -> Option<f64> {
+        let angle = self.fixed.orientation?;
+        let moment = self.law(Role::Follower, follower).ok()?.moment_of(PI - angle);
+        Some(match self.short_role() {
+            Role::Driver => moment,
+            Role::Follower => (-moment).rem_euclid(TAU),
+        })
+    }
+
+    /// The same as a whole number of samples of the long gear's turn.
+    pub(super) fn fixed_shift_samples(&self, follower: Point) -> Option<usize> {
+        let whole = self.samples * self.windows();
+        let steps = (self.fixed_shift(follower)? / self.step()).round();
+        Some(steps.max(0.0) as usize % whole)
     }
 
     /// Periods in the long gear's turn.

@@ -21,7 +21,8 @@ impl Cell {
     }
 
     fn split(&self) -> impl Iterator<Item = Cell> {
-        let n = policy::PAPER_GRID;
+        // A cell without extent is an axis that is fixed.
+        let n = if self.size == Vector::zeros() { 1 } else { policy::PAPER_GRID };
         let (low, size) = (self.low, self.size / n as f64);
         (0..n * n).map(move |i| {
             let at = Vector::new((i % n) as f64 * size.x, (i / n) as f64 * size.y);
@@ -48,6 +49,9 @@ pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
     };
     let points = |role| if role == Role::Driver { problem.driver } else { problem.follower };
     let box_of = |role| {
+        if let Some(low) = problem.fixed.axis(role) {
+            return vec![Cell { low, size: Vector::zeros() }];
+        }
         let (low, high) = bounds(points(role));
         vec![Cell { low, size: high - low }]
     };
@@ -70,7 +74,16 @@ pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
                     longs
                         .iter()
                         .map(|long| {
-                            let at = aligner.best(&short.spectrum, &long.spectrum, stride, scratch);
+                            let follower = match short_role {
+                                Role::Driver => long.cell.center(),
+                                Role::Follower => short.cell.center(),
+                            };
+                            let at = match problem.fixed_shift_samples(follower) {
+                                Some(shift) => aligner.at(&short.spectrum, &long.spectrum, shift),
+                                None => {
+                                    aligner.best(&short.spectrum, &long.spectrum, stride, scratch)
+                                }
+                            };
                             let window = long.spectrum.window(at.shift, problem.samples, mean);
                             let torque = greatest(&problem.blend(&short.spectrum.law, window));
                             (at.delta + problem.weight * torque, short.cell, long.cell, at.shift)
@@ -96,10 +109,10 @@ pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
     let winner = best.first().map(|(_, short, long, shift)| {
         let shift = *shift as f64 * problem.step();
         let (short, long) = (short.center(), long.center());
-        match short_role {
+        problem.pinned(match short_role {
             Role::Driver => Candidate { driver: short, follower: long, shift },
             Role::Follower => Candidate { driver: long, follower: short, shift },
-        }
+        })
     });
     (winner, scored)
 }

@@ -47,18 +47,26 @@ pub(super) fn place(
     candidate: &Candidate,
     pairs_scored: usize,
 ) -> Result<Fit, FitError> {
-    let scored = problem.score(candidate)?;
-    let (driver_fold, follower_fold) = problem.folds();
-    let window = Transmission::from_derivative(&scored.limited, driver_fold, follower_fold)?;
-    // In the window's angles the driver's own direction is -shift at 0 when the driver is the long gear.
-    let start = if problem.short_role() == Role::Driver { 0.0 } else { candidate.shift };
-    let transmission = if start == 0.0 { window } else { window.shifted(-start) };
+    let mut candidate = problem.pinned(*candidate);
+    let mut begun = Begun::new(problem, &candidate)?;
+    if let Some(wanted) = problem.fixed.orientation {
+        for _ in 0..policy::ORIENTATION_ROUNDS {
+            let off = (begun.follower_angle - wanted + PI).rem_euclid(TAU) - PI;
+            if off.abs() < policy::ORIENTATION_WITHIN {
+                break;
+            }
+            // The drawing turns by 1 / K for each radian that its law is shifted by.
+            let way = if problem.short_role() == Role::Driver { 1.0 } else { -1.0 };
+            candidate.shift += way * off * problem.ratio.value();
+            begun = Begun::new(problem, &candidate)?;
+        }
+    }
+    let Begun { scored, centrodes, start, follower_angle } = begun;
     let raw = turned(&scored.blend, -start / problem.step());
-    let centrodes = Centrodes { transmission, center_distance: 1.0 };
     let count = policy::PLACEMENT_SAMPLES;
+    let (driver_fold, follower_fold) = problem.folds();
     let driver_curve = centrodes.driver_curve(count * driver_fold as usize);
     let follower_curve = centrodes.follower_curve(count * follower_fold as usize);
-    let follower_angle = follower_angle(problem, candidate, &scored, &centrodes, start);
     let fitted = |center: Point,
                   input: &[Point],
                   curve: &[Point],
@@ -82,7 +90,7 @@ pub(super) fn place(
         &follower_curve,
         follower_angle,
         scored.lost_area.1,
-        policy::PLACEMENT_SWING,
+        if problem.fixed.orientation.is_some() { 0.0 } else { policy::PLACEMENT_SWING },
     );
     Ok(Fit {
         transmission: centrodes.transmission,
@@ -93,6 +101,29 @@ pub(super) fn place(
         follower,
         pairs_scored,
     })
+}
+
+/// A candidate scored, with its motion begun where the driver's drawing stands upright.
+struct Begun {
+    scored: Scored,
+    centrodes: Centrodes,
+    /// Driver angle, in the pair's motion, at which the window starts.
+    start: f64,
+    follower_angle: f64,
+}
+
+impl Begun {
+    fn new(problem: &Problem<'_>, candidate: &Candidate) -> Result<Self, FitError> {
+        let scored = problem.score(candidate)?;
+        let (driver_fold, follower_fold) = problem.folds();
+        let window = Transmission::from_derivative(&scored.limited, driver_fold, follower_fold)?;
+        // In the window's angles the driver's own direction is -shift at 0 when the driver is the long gear.
+        let start = if problem.short_role() == Role::Driver { 0.0 } else { candidate.shift };
+        let transmission = if start == 0.0 { window } else { window.shifted(-start) };
+        let centrodes = Centrodes { transmission, center_distance: 1.0 };
+        let follower_angle = follower_angle(problem, candidate, &scored, &centrodes, start);
+        Ok(Self { scored, centrodes, start, follower_angle })
+    }
 }
 
 /// Mean turn from the follower's drawing to its gear: at each sample the direction in the drawing that its own law puts at the

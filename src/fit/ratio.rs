@@ -1,13 +1,15 @@
-//! The transmission ratio K: an integer or the reciprocal of one.
+//! The transmission ratio K: how many turns of the driver make one of the follower.
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::policy;
 
-/// Driver turns for one turn of the follower: `K` or `1/K`, K = 1, 2, 3...
+/// Driver turns for one turn of the follower: `K` or `1/K`, K = 1, 2, 3..., and for motions also `m/n`.
 ///
-/// K > 1 makes the follower K times as long as the driver and K-fold symmetric; 1/K changes the roles.
+/// K > 1 makes the follower K times as long as the driver and K-fold symmetric; 1/K changes the roles. With m/n in lowest
+/// terms the driver is n-fold and the follower m-fold symmetric: both are closed curves only if psi' repeats n times
+/// in a turn of the driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ratio {
     driver_fold: u32,
@@ -44,6 +46,28 @@ impl Ratio {
     /// `k` is 0 or beyond the greatest ratio of the program.
     pub fn reciprocal(k: u32) -> Result<Self, RatioError> {
         Self::checked(k, 1, || format!("1/{k}"))
+    }
+
+    /// `driver_turns` of the driver make `follower_turns` of the follower.
+    ///
+    /// # Errors
+    /// Either is 0 or, in lowest terms, beyond the greatest ratio of the program.
+    pub fn rational(driver_turns: u32, follower_turns: u32) -> Result<Self, RatioError> {
+        let common = gcd(driver_turns, follower_turns).max(1);
+        let given = || format!("{driver_turns}:{follower_turns}");
+        Self::checked(follower_turns / common, driver_turns / common, given)
+    }
+
+    /// The ratio of gears with these orders of symmetry, in lowest terms; neither is 0.
+    pub(crate) fn of_folds(driver_fold: u32, follower_fold: u32) -> Self {
+        let common = gcd(driver_fold, follower_fold).max(1);
+        Self { driver_fold: driver_fold / common, follower_fold: follower_fold / common }
+    }
+
+    /// Whether it is a whole number or the reciprocal of one.
+    #[must_use]
+    pub fn is_whole(self) -> bool {
+        self.driver_fold == 1 || self.follower_fold == 1
     }
 
     fn checked(
@@ -89,7 +113,7 @@ impl fmt::Display for Ratio {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.driver_fold {
             1 => write!(f, "{}", self.follower_fold),
-            k => write!(f, "1/{k}"),
+            k => write!(f, "{}/{k}", self.follower_fold),
         }
     }
 }
@@ -109,9 +133,26 @@ impl FromStr for Ratio {
     }
 }
 
+fn gcd(mut a: u32, mut b: u32) -> u32 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rational_ratios_are_in_lowest_terms() {
+        let ratio = Ratio::rational(6, 4).unwrap();
+        assert_eq!((ratio.driver_fold(), ratio.follower_fold()), (2, 3));
+        assert_eq!((ratio.to_string().as_str(), ratio.value()), ("3/2", 1.5));
+        assert!(!ratio.is_whole() && Ratio::rational(4, 2).unwrap().is_whole());
+        assert_eq!(Ratio::of_folds(6, 4), Ratio::rational(2, 3).unwrap());
+        assert!(Ratio::rational(0, 3).is_err() && Ratio::rational(1, 1000).is_err());
+    }
 
     #[test]
     fn ratios_read_and_print() {

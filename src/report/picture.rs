@@ -298,7 +298,7 @@ impl Sheet {
                 format!("{}, {} teeth", gear.name, gear.teeth),
             ));
         }
-        if options.input {
+        if options.input && gears.iter().any(|g| !g.input.is_empty()) {
             key.push((
                 format!(
                     "<rect y=\"{top}\" width=\"{size}\" height=\"{size}\" fill=\"{GHOST_INK}\" \

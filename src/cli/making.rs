@@ -1,0 +1,177 @@
+//! What all commands share that make a pair: options of teeth and size, and the way from a design to a folder.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use centrode::design::{
+    BoreChoice, Design, DesignOptions, RECORD_NAME, Record, Scale, TeethStyle, ToothCount,
+};
+use centrode::export::{ExportError, Format, Parts, Staging, write_json};
+use centrode::fit::Ratio;
+use centrode::outline::{LoadOptions, Shape, Smoothing, load};
+use centrode::report::report_html;
+use centrode::solid::{Mesh, assembly_solids};
+
+use super::args::{
+    CarverArg, DesignArgs, ExportArgs, PairArgs, RunArgs, ShapeArgs, SizeArgs, StyleArg, TeethArgs,
+};
+use super::files::{write_parts, write_text};
+use super::progress::Progress;
+use super::{Outcome, report};
+
+/// The options of a command that makes a pair, wherever the pair comes from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Making<'a> {
+    pub(crate) output: &'a Path,
+    json: bool,
+    teeth: &'a TeethArgs,
+    size: &'a SizeArgs,
+    formats: &'a ExportArgs,
+    no_simulate: bool,
+    run: &'a RunArgs,
+}
+
+impl DesignArgs {
+    pub(crate) fn making(&self) -> Making<'_> {
+        Making {
+            output: &self.output,
+            json: self.json,
+            teeth: &self.teeth,
+            size: &self.size,
+            formats: &self.formats,
+            no_simulate: self.no_simulate,
+            run: &self.run,
+        }
+    }
+}
+
+impl PairArgs {
+    pub(crate) fn making(&self) -> Making<'_> {
+        Making {
+            output: &self.output,
+            json: self.json,
+            teeth: &self.teeth,
+            size: &self.size,
+            formats: &self.formats,
+            no_simulate: self.no_simulate,
+            run: &self.run,
+        }
+    }
+}
+
+impl Making<'_> {
+    /// Everything but the fit.
+    pub(crate) fn options(&self, ratio: Ratio) -> DesignOptions {
+        let defaults = DesignOptions::new(ratio);
+        DesignOptions {
+            teeth: match (self.teeth.teeth, self.teeth.module) {
+                (Some(count), _) => ToothCount::Teeth(count),
+                (None, Some(module)) => ToothCount::Module(module),
+                (None, None) => ToothCount::Auto,
+            },
+            style: match self.teeth.teeth_style {
+                StyleArg::Involute => TeethStyle::Involute,
+                StyleArg::Wave => TeethStyle::Wave,
+                StyleArg::RegularWave => TeethStyle::RegularWave,
+            },
+            carve_with_solids: self.teeth.carve_with == CarverArg::Manifold,
+            pressure_angle: self.teeth.pressure_angle,
+            addendum: self.teeth.addendum,
+            clearance: self.teeth.clearance,
+            backlash: self.teeth.backlash,
+            root_clearance: self.teeth.root_clearance,
+            chord_tolerance: self.teeth.chord_tolerance.unwrap_or(defaults.chord_tolerance),
+            scale: match self.size.size {
+                Some(extent) => Scale::Extent(extent),
+                None => Scale::CenterDistance(self.size.center_distance),
+            },
+            thickness: self.size.thickness,
+            bore: match self.size.bore {
+                Some(bore) => BoreChoice::Exactly(bore),
+                None => defaults.bore,
+            },
+            repair: !self.teeth.strict,
+            runs: if self.no_simulate {
+                Vec::new()
+            } else {
+                self.run.runs(self.size.thickness, centrode::policy::DESIGN_CYCLES)
+            },
+            ..defaults
+        }
+    }
+
+    /// Writes a finished design and says what it is; an unsound one is refused unless forced.
+    pub(crate) fn deliver(
+        &self,
+        made: &Design,
+        progress: &Progress,
+        start: Instant,
+    ) -> anyhow::Result<Outcome> {
+        if !made.is_sound() && !self.teeth.force {
+            progress.done();
+            eprintln!("error: {}", self.unsound(made));
+            return Ok(Outcome::NotSound);
+        }
+        progress.doing("making solids");
+        let meshes = assembly_solids(&made.assembly)?;
+        progress.doing("writing files");
+        let files = self.write(made, &meshes)?;
+        progress.done();
+        report::summary(made, &files, self.output, start.elapsed(), self.json)?;
+        Ok(if made.is_sound() { Outcome::Good } else { Outcome::NotSound })
+    }
+
+    fn unsound(&self, made: &Design) -> String {
+        let hint = if self.teeth.strict {
+            "without --strict gentler settings are tried"
+        } else {
+            "--force writes the files all the same"
+        };
+        let [driver, follower] = &made.names;
+        format!(
+            "{driver} and {follower} do not make a sound pair, so nothing was written: {} ({hint})",
+            made.faults.join("; ")
+        )
+    }
+
+    fn write(&self, made: &Design, meshes: &[Mesh]) -> anyhow::Result<Vec<PathBuf>> {
+        let staging = Staging::new(self.output)?;
+        let files = write_into(staging.path(), made, meshes, self.formats)
+            .map_err(|error| staging.told_of_the_final_place(error))?;
+        Ok(staging.publish(&files)?)
+    }
+}
+
+fn write_into(
+    folder: &Path,
+    made: &Design,
+    meshes: &[Mesh],
+    formats: &ExportArgs,
+) -> Result<Vec<PathBuf>, ExportError> {
+    let parts = Parts { assembly: &made.assembly, meshes };
+    let mut files = write_parts(folder, parts, formats)?;
+    if formats.wants(Format::Html) {
+        let page = report_html(&made.assembly, &report::page(made));
+        files.push(write_text(folder, "report.html", &page)?);
+    }
+    if let Some(proof) = &made.proof {
+        files.extend(super::proof::write_tables(folder, proof)?);
+    }
+    // Always and last, so that a folder with a record is a folder that is complete.
+    let path = folder.join(RECORD_NAME);
+    write_json(&path, &Record::new(made))?;
+    files.push(path);
+    Ok(files)
+}
+
+impl ShapeArgs {
+    /// Reads a drawing.
+    pub(crate) fn read(&self, source: &str) -> anyhow::Result<Shape> {
+        let options = LoadOptions {
+            threshold: self.threshold,
+            smoothing: self.smoothing.map_or(Smoothing::Auto, Smoothing::Fixed),
+            ..LoadOptions::default()
+        };
+        Ok(load(source, &options)?)
+    }
+}

@@ -1,0 +1,42 @@
+//! `centrode mate`: a gear of one shape, and the gear that runs with it.
+
+use std::time::Instant;
+
+use anyhow::Context;
+use centrode::design::{DesignOptions, mate};
+use centrode::fit::{FitOptions, Fixed, Limits};
+
+use super::Outcome;
+use super::args::MateArgs;
+use super::progress::Progress;
+
+pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
+    let start = Instant::now();
+    let progress = Progress::new();
+    progress.doing("reading the shape");
+    let shape = args.reading.read(&args.shape)?;
+    let making = args.pair.making();
+    let options = making.options(args.ratio);
+    let options = DesignOptions {
+        fit: FitOptions {
+            weight: args.torque_weight,
+            limits: Limits {
+                max_derivative: args.max_torque,
+                max_lean: args.max_lean,
+                max_curvature: None,
+            },
+            fixed: Fixed { driver_axis: args.axis, ..Fixed::default() },
+            ..options.fit
+        },
+        ..options
+    };
+    progress.doing(format!("making the mate of {}", shape.name));
+    let (low, high) = shape.outline.bounds();
+    let made = mate(&shape, &options).with_context(|| {
+        format!(
+            "{} (drawn from {:.4},{:.4} to {:.4},{:.4})",
+            shape.name, low.x, low.y, high.x, high.y
+        )
+    })?;
+    making.deliver(&made, &progress, start)
+}

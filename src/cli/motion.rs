@@ -1,0 +1,73 @@
+//! `centrode motion`: gears from a wanted motion.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::{Context, anyhow, bail};
+use centrode::design::from_motion;
+use centrode::law::{Formula, LawOptions, Quantity, Table, from_function};
+use centrode::pitch::Transmission;
+use centrode::policy;
+
+use super::Outcome;
+use super::args::MotionArgs;
+use super::progress::Progress;
+
+/// Extensions of tables.
+const TABLES: [&str; 3] = ["csv", "tsv", "txt"];
+
+pub(crate) fn run(args: &MotionArgs) -> anyhow::Result<Outcome> {
+    let start = Instant::now();
+    let progress = Progress::new();
+    let (transmission, names) = motion(args)?;
+    let making = args.pair.making();
+    let options = making.options(args.ratio);
+    progress.doing("laying teeth on the pitch curves");
+    let made = from_motion(transmission, names, [None, None], &options)?;
+    making.deliver(&made, &progress, start)
+}
+
+/// The motion, and what the gears are called.
+fn motion(args: &MotionArgs) -> anyhow::Result<(Transmission, [String; 2])> {
+    let with = |quantity| LawOptions { ratio: args.ratio, quantity, normalise: args.normalise };
+    let (text, quantity, sign) = match (&args.law, &args.centrode, &args.preset) {
+        (Some(law), ..) if args.psi => (law, Quantity::Angle, "psi"),
+        (Some(law), ..) => (law, Quantity::Speed, "psi'"),
+        (None, Some(radius), _) => (radius, Quantity::DriverRadius, "r"),
+        (None, None, Some(preset)) => {
+            return Ok((preset.transmission(&with(Quantity::Speed))?, preset.names()));
+        }
+        (None, None, None) => {
+            bail!("no motion is given; write a formula such as '1 + 0.3*cos(2*phi)', or --preset")
+        }
+    };
+    let options = with(quantity);
+    let path = Path::new(text);
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    if TABLES.contains(&extension.as_str()) {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let made = Table::parse(&read(path)?, quantity)
+            .and_then(|table| table.transmission(&options))
+            .with_context(|| path.display().to_string())?;
+        return Ok((made, [stem, "its follower".to_owned()]));
+    }
+    let formula = Formula::parse(text)?;
+    let made = from_function(|phi| formula.at(phi), &options)?;
+    Ok((made, [format!("{sign} = {}", text.trim()), "its follower".to_owned()]))
+}
+
+/// A table's bytes, and at most one more than is taken.
+fn read(path: &Path) -> anyhow::Result<Vec<u8>> {
+    if path.is_dir() {
+        bail!("{}: this is a folder; name a table in it", path.display());
+    }
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(policy::LAW_TABLE_BYTES as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| {
+            anyhow!("{}: the table cannot be read ({error}); check the path", path.display())
+        })?;
+    Ok(bytes)
+}
