@@ -3,6 +3,10 @@
 //! Every picture, solid and file is made from an [`Assembly`]; it knows
 //! nothing of how the gears were designed.
 
+mod fittings;
+
+pub use fittings::{Fittings, Fixture, Hub, Mark, Opening, Post};
+
 use crate::geometry::Point;
 
 /// A finished gear in its own frame: origin on its axis, mm, counter-clockwise outline.
@@ -20,6 +24,8 @@ pub struct Gear {
     pub input: Vec<Point>,
     /// Number of teeth on one full turn.
     pub teeth: u32,
+    /// What it carries besides teeth and bore.
+    pub fittings: Fittings,
 }
 
 /// A gear on its axis, with its motion.
@@ -44,4 +50,6 @@ pub struct Assembly {
     pub driver_angle: Vec<f64>,
     /// Thickness of every gear, mm, along z from 0.
     pub thickness: f64,
+    /// Parts that stand still, such as a base plate.
+    pub fixtures: Vec<Fixture>,
 }

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use centrode::export::Format;
 use centrode::geometry::Point;
 use centrode::policy;
-use centrode::solid::Bore;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::outfit::OutfitArgs;
 use super::units;
 
 /// Turns two drawings into a pair of gears that mesh.
@@ -160,6 +160,8 @@ pub(crate) struct DesignArgs {
     #[command(flatten)]
     pub(crate) size: SizeArgs,
     #[command(flatten)]
+    pub(crate) outfit: OutfitArgs,
+    #[command(flatten)]
     pub(crate) formats: ExportArgs,
     /// Do not run the pair as rigid bodies
     #[arg(long, help_heading = "Simulation")]
@@ -299,9 +301,6 @@ pub(crate) struct SizeArgs {
     /// Thickness of the gears
     #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) thickness: f64,
-    /// Hole for the axle: a diameter, lego, or none [default: 5mm, or less where there is no room]
-    #[arg(long, value_name = "BORE", value_parser = units::bore, allow_hyphen_values = true)]
-    pub(crate) bore: Option<Bore>,
 }
 
 /// How to look for the axes.

@@ -79,10 +79,8 @@ fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
             None => Scale::CenterDistance(args.size.center_distance),
         },
         thickness: args.size.thickness,
-        bore: match args.size.bore {
-            Some(bore) => BoreChoice::Exactly(bore),
-            None => defaults.bore,
-        },
+        bore: args.outfit.bore().map_or(defaults.bore, BoreChoice::Exactly),
+        outfit: args.outfit.outfit(),
         repair: !args.teeth.strict,
         runs: if args.no_simulate {
             Vec::new()

@@ -5,6 +5,7 @@ mod check;
 mod design;
 mod export;
 mod files;
+mod outfit;
 mod progress;
 mod proof;
 mod report;

@@ -4,7 +4,7 @@ use super::{
     Design, DesignError, DesignOptions, Scale, TeethStyle, ToothCount, bore_for, feasibility,
     placed_gear, placed_input,
 };
-use crate::assembly::{Assembly, Gear};
+use crate::assembly::{Assembly, Fittings, Gear};
 use crate::fit::{self, Fit};
 use crate::geometry::{self, Point};
 use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
@@ -428,7 +428,7 @@ impl Attempt {
                 ));
             }
             let outline = self.finished[i].points.clone();
-            let bore = bore_for(options.bore, &outline, &mut warnings, name)?;
+            let bore = bore_for(options, &outline, &mut warnings, name)?;
             gears.push(Gear {
                 name: name.to_owned(),
                 outline,
@@ -436,6 +436,7 @@ impl Attempt {
                 pitch_curve: curves[i].clone(),
                 input,
                 teeth: teeth[i],
+                fittings: Fittings::default(),
             });
         }
         let periods = teeth::cycle_periods(transmission);
@@ -455,7 +456,12 @@ impl Attempt {
         Ok(Design {
             names: shapes.map(|s| s.name.clone()),
             options: options.clone(),
-            assembly: Assembly { gears, driver_angle, thickness: options.thickness },
+            assembly: Assembly {
+                gears,
+                driver_angle,
+                thickness: options.thickness,
+                fixtures: Vec::new(),
+            },
             fit,
             centrodes: self.centrodes,
             teeth,

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::Design;
+use super::fittings_record::{FittingsRecord, FixtureRecord};
 use crate::assembly::PlacedGear;
 use crate::geometry::Point;
 use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
@@ -19,6 +20,8 @@ pub struct Record {
     thickness: f64,
     driver: GearRecord,
     follower: GearRecord,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    fixtures: Vec<FixtureRecord>,
     motion: Motion,
     objective: ObjectiveRecord,
     resemblance: Resemblance,
@@ -34,6 +37,8 @@ struct GearRecord {
     bore: Option<Vec<[f64; 2]>>,
     input: Vec<[f64; 2]>,
     rotation_center_in_input: [f64; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fittings: Option<FittingsRecord>,
 }
 
 #[derive(Debug, Serialize)]
@@ -105,6 +110,7 @@ struct Settings {
     root_clearance: Option<f64>,
     chord_tolerance: f64,
     bore: String,
+    outfit: String,
     repair: bool,
 }
 
@@ -127,6 +133,7 @@ impl Record {
             thickness: design.assembly.thickness,
             driver: gear_record(&gears[0], design.fit.driver.center_in_input),
             follower: gear_record(&gears[1], design.fit.follower.center_in_input),
+            fixtures: design.assembly.fixtures.iter().map(FixtureRecord::new).collect(),
             motion: Motion {
                 driver_angle: design.assembly.driver_angle.clone(),
                 follower_angle: gears[1].angle.iter().map(|a| 0.0 - a).collect(),
@@ -177,6 +184,7 @@ impl Record {
                 root_clearance: options.root_clearance,
                 chord_tolerance: options.chord_tolerance,
                 bore: format!("{:?}", options.bore),
+                outfit: format!("{:?}", options.outfit),
                 repair: options.repair,
             },
         }
@@ -207,6 +215,7 @@ fn gear_record(placed: &PlacedGear, center: Point) -> GearRecord {
         bore: gear.bore.as_deref().map(plain),
         input: plain(&gear.input),
         rotation_center_in_input: [center.x, center.y],
+        fittings: FittingsRecord::new(&gear.fittings),
     }
 }
 

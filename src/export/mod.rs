@@ -43,7 +43,7 @@ use std::path::{Path, PathBuf};
 pub struct Parts<'a> {
     /// The gears, their places and their motion.
     pub assembly: &'a Assembly,
-    /// The solid of each gear, in the gears' order, each in its gear's own frame, mm.
+    /// The solid of each gear, in the gears' order, then of each fixture, each in its own frame, mm.
     pub meshes: &'a [Mesh],
 }
 
@@ -51,6 +51,12 @@ impl<'a> Parts<'a> {
     /// Each gear with its solid.
     fn iter(self) -> impl ExactSizeIterator<Item = (&'a crate::assembly::PlacedGear, &'a Mesh)> {
         self.assembly.gears.iter().zip(self.meshes)
+    }
+
+    /// Each part that stands still with its solid.
+    fn fixtures(self) -> impl ExactSizeIterator<Item = (&'a crate::assembly::Fixture, &'a Mesh)> {
+        let rest = self.meshes.get(self.assembly.gears.len()..).unwrap_or_default();
+        self.assembly.fixtures.iter().zip(rest)
     }
 }
 
@@ -93,7 +99,7 @@ mod tests {
                 angle: follower,
             },
         ];
-        let assembly = Assembly { gears, driver_angle, thickness: 6.0 };
+        let assembly = Assembly { gears, driver_angle, thickness: 6.0, fixtures: Vec::new() };
         let meshes = assembly_solids(&assembly).unwrap();
         (assembly, meshes)
     }

@@ -2,7 +2,7 @@
 //! two equal ellipses turning about a focus each, with waves for teeth.
 
 use super::{Note, NoteKind, Plot, ReportData, Section, Verdict};
-use crate::assembly::{Assembly, Gear, PlacedGear};
+use crate::assembly::{Assembly, Fittings, Gear, PlacedGear};
 use crate::geometry::{Point, quarter_turn};
 use std::f64::consts::{PI, TAU};
 
@@ -31,6 +31,7 @@ pub(super) fn ellipses() -> Assembly {
             .collect(),
         pitch_curve,
         teeth: TEETH,
+        fittings: Fittings::default(),
     };
     Assembly {
         gears: vec![
@@ -47,6 +48,7 @@ pub(super) fn ellipses() -> Assembly {
         ],
         driver_angle: phi,
         thickness: 6.0,
+        fixtures: Vec::new(),
     }
 }
 
