@@ -8,6 +8,9 @@ mod train;
 
 pub use motion::{MotionError, SampledMotion};
 pub use train::{Layout, Link, PairModel, Role, Train, TrainError, TrainGear, TrainPlan};
+mod fittings;
+
+pub use fittings::{Fittings, Fixture, Hub, Mark, Opening, Post};
 
 use crate::geometry::Point;
 
@@ -26,6 +29,8 @@ pub struct Gear {
     pub input: Vec<Point>,
     /// Number of teeth on one full turn.
     pub teeth: u32,
+    /// What it carries besides teeth and bore.
+    pub fittings: Fittings,
 }
 
 /// A gear on its axis, with its motion.
@@ -67,4 +72,6 @@ pub struct Assembly {
     pub meshes: Vec<[usize; 2]>,
     /// Gears fixed on one axle, by number.
     pub axles: Vec<[usize; 2]>,
+    /// Parts that stand still, such as a base plate.
+    pub fixtures: Vec<Fixture>,
 }

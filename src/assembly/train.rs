@@ -264,8 +264,14 @@ impl TrainPlan {
                 PlacedGear { gear, axis, level, angle }
             })
             .collect();
-        let assembly =
-            Assembly { gears, driver_angle, thickness: self.thickness, meshes, axles: fixed };
+        let assembly = Assembly {
+            gears,
+            driver_angle,
+            thickness: self.thickness,
+            meshes,
+            axles: fixed,
+            fixtures: Vec::new(),
+        };
         self.check_rings(&assembly)?;
         check_collisions(&assembly)?;
         let module = self.pairs.iter().map(|p| p.module).fold(f64::INFINITY, f64::min);
@@ -461,6 +467,7 @@ impl TrainPlan {
             thickness: self.thickness,
             meshes: Vec::new(),
             axles: Vec::new(),
+            fixtures: Vec::new(),
         };
         self.closing.iter().map(|&mesh| self.opening(&bare, mesh)).fold(0.0, f64::max)
     }
@@ -481,6 +488,7 @@ fn turned(gear: &Gear, angle: f64, name: String) -> Gear {
         bore: gear.bore.as_deref().map(turn),
         pitch_curve: turn(&gear.pitch_curve),
         input: turn(&gear.input),
+        fittings: gear.fittings.clone().turned(angle),
         ..gear.clone()
     }
 }
@@ -594,6 +602,7 @@ mod tests {
             input: outline.clone(),
             outline,
             bore: None,
+            fittings: crate::assembly::Fittings::default(),
             teeth: 32,
         };
         PairModel {

@@ -4,14 +4,14 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use centrode::export::Format;
-use centrode::gallery::Shard;
 use centrode::fit::Ratio;
+use centrode::gallery::Shard;
 use centrode::geometry::Point;
 use centrode::law::Preset;
 use centrode::policy;
-use centrode::solid::Bore;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 
+use super::outfit::OutfitArgs;
 use super::units;
 
 /// Turns two drawings into a pair of gears that mesh.
@@ -55,6 +55,10 @@ pub(crate) enum Command {
     Gallery(Box<GalleryArgs>),
     /// Carry out a scene: a TOML file with the options of a command
     Run(SceneArgs),
+    /// Print the completions of a shell
+    Completions(CompletionsArgs),
+    /// Print the manual page, or write one for each command
+    Man(ManArgs),
 }
 
 /// Options of `centrode run`.
@@ -124,6 +128,8 @@ pub(crate) struct GalleryArgs {
     #[command(flatten)]
     pub(crate) size: SizeArgs,
     #[command(flatten)]
+    pub(crate) outfit: OutfitArgs,
+    #[command(flatten)]
     pub(crate) formats: ExportArgs,
     #[command(flatten)]
     pub(crate) run: RunArgs,
@@ -145,10 +151,6 @@ pub(crate) struct MergeArgs {
     /// Folder for the whole
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: PathBuf,
-    /// Print the completions of a shell
-    Completions(CompletionsArgs),
-    /// Print the manual page, or write one for each command
-    Man(ManArgs),
 }
 
 /// Options of `centrode export`.
@@ -335,6 +337,8 @@ pub(crate) struct PairArgs {
     #[command(flatten)]
     pub(crate) size: SizeArgs,
     #[command(flatten)]
+    pub(crate) outfit: OutfitArgs,
+    #[command(flatten)]
     pub(crate) formats: ExportArgs,
     /// Do not run the pair as rigid bodies
     #[arg(long, help_heading = "Simulation")]
@@ -370,6 +374,8 @@ pub(crate) struct DesignArgs {
     pub(crate) teeth: TeethArgs,
     #[command(flatten)]
     pub(crate) size: SizeArgs,
+    #[command(flatten)]
+    pub(crate) outfit: OutfitArgs,
     #[command(flatten)]
     pub(crate) formats: ExportArgs,
     /// Do not run the pair as rigid bodies
@@ -522,9 +528,6 @@ pub(crate) struct SizeArgs {
     /// Thickness of the gears
     #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) thickness: f64,
-    /// Hole for the axle: a diameter, lego, or none [default: 5mm, or less where there is no room]
-    #[arg(long, value_name = "BORE", value_parser = units::bore, allow_hyphen_values = true)]
-    pub(crate) bore: Option<Bore>,
 }
 
 /// How to look for the axes.

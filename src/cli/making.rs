@@ -16,6 +16,7 @@ use super::args::{
     CarverArg, DesignArgs, ExportArgs, PairArgs, RunArgs, ShapeArgs, SizeArgs, StyleArg, TeethArgs,
 };
 use super::files::{write_parts, write_text};
+use super::outfit::OutfitArgs;
 use super::progress::Progress;
 use super::{Outcome, report};
 
@@ -26,6 +27,7 @@ pub(crate) struct Making<'a> {
     json: bool,
     teeth: &'a TeethArgs,
     size: &'a SizeArgs,
+    outfit: &'a OutfitArgs,
     formats: &'a ExportArgs,
     no_simulate: bool,
     run: &'a RunArgs,
@@ -38,6 +40,7 @@ impl DesignArgs {
             json: self.json,
             teeth: &self.teeth,
             size: &self.size,
+            outfit: &self.outfit,
             formats: &self.formats,
             no_simulate: self.no_simulate,
             run: &self.run,
@@ -52,6 +55,7 @@ impl PairArgs {
             json: self.json,
             teeth: &self.teeth,
             size: &self.size,
+            outfit: &self.outfit,
             formats: &self.formats,
             no_simulate: self.no_simulate,
             run: &self.run,
@@ -86,10 +90,8 @@ impl Making<'_> {
                 None => Scale::CenterDistance(self.size.center_distance),
             },
             thickness: self.size.thickness,
-            bore: match self.size.bore {
-                Some(bore) => BoreChoice::Exactly(bore),
-                None => defaults.bore,
-            },
+            bore: self.outfit.bore().map_or(defaults.bore, BoreChoice::Exactly),
+            outfit: self.outfit.outfit(),
             repair: !self.teeth.strict,
             runs: if self.no_simulate {
                 Vec::new()

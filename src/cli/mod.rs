@@ -10,6 +10,7 @@ mod gallery_shapes;
 mod making;
 mod mate;
 mod motion;
+mod outfit;
 mod progress;
 mod proof;
 mod report;

@@ -1,8 +1,9 @@
 //! Lengths and angles as people type them.
 
-use centrode::gallery::Shard;
 use centrode::fit::Ratio;
+use centrode::gallery::Shard;
 use centrode::geometry::Point;
+use centrode::policy;
 use centrode::solid::Bore;
 
 /// Studs of the well-known building brick, mm.
@@ -150,13 +151,45 @@ pub(crate) fn shard(text: &str) -> Result<Shard, String> {
     })
 }
 
-/// A bore: `none`, `lego`, or the diameter of a round hole.
+/// A bore: `none`, `lego`, the diameter of a round hole, or a kind with sizes such as `d:5x4.5`.
 pub(crate) fn bore(text: &str) -> Result<Bore, String> {
+    let refused = || {
+        format!(
+            "'{text}' is not a bore; write none, lego, 5mm, round:5, d:5, d:5x4.5, hex:6, square:4, keyway:8 or keyway:8x2x1"
+        )
+    };
     match text {
-        "none" => Ok(Bore::None),
-        "lego" => Ok(Bore::Lego { play: centrode::policy::LEGO_AXLE_PLAY }),
-        _ => positive_length(text).map(|diameter| Bore::Round { diameter }).map_err(|_| {
-            format!("'{text}' is not a bore; write none, lego, or a diameter such as 5mm")
+        "none" => return Ok(Bore::None),
+        "lego" => return Ok(Bore::Lego { play: policy::LEGO_AXLE_PLAY }),
+        _ => {}
+    }
+    let (kind, sizes) = text.split_once(':').unwrap_or(("round", text));
+    let sizes: Vec<f64> = sizes
+        .split('x')
+        .map(|size| positive_length(size).map_err(|_| refused()))
+        .collect::<Result<_, _>>()?;
+    Ok(match (kind, sizes.as_slice()) {
+        ("round", &[diameter]) => Bore::Round { diameter },
+        ("d", &[diameter]) => Bore::D { diameter, flat: policy::D_FLAT * diameter },
+        ("d", &[diameter, flat]) => Bore::D { diameter, flat },
+        ("hex", &[across]) => Bore::Hex { across },
+        ("square", &[side]) => Bore::Square { side },
+        ("keyway", &[diameter]) => Bore::with_standard_key(diameter).ok_or_else(|| {
+            format!("DIN 6885 has no key for a shaft of {diameter} mm; give width and depth too, such as keyway:{diameter}x2x1")
+        })?,
+        ("keyway", &[diameter, width, depth]) => Bore::Keyway { diameter, width, depth },
+        _ => return Err(refused()),
+    })
+}
+
+/// Play a side: a named fit or a length.
+pub(crate) fn fit(text: &str) -> Result<f64, String> {
+    match text {
+        "tight" => Ok(policy::TIGHT_FIT),
+        "slide" => Ok(policy::SLIDE_FIT),
+        "loose" => Ok(policy::LOOSE_FIT),
+        _ => length_or_zero(text).map_err(|_| {
+            format!("'{text}' is not a fit; write tight, slide, loose, or a length such as 0.1mm")
         }),
     }
 }
@@ -197,6 +230,20 @@ mod tests {
     fn bores_by_name_or_diameter() {
         assert_eq!(bore("none"), Ok(Bore::None));
         assert_eq!(bore("5mm"), Ok(Bore::Round { diameter: 5.0 }));
-        assert!(bore("wide").is_err());
+        assert_eq!(bore("round:5"), bore("5"));
+        assert_eq!(bore("d:5"), bore("d:5x4.5mm"));
+        assert_eq!(bore("hex:6mm"), Ok(Bore::Hex { across: 6.0 }));
+        assert_eq!(bore("square:4"), Ok(Bore::Square { side: 4.0 }));
+        assert_eq!(bore("keyway:8"), bore("keyway:8x2x1"));
+        for bad in ["wide", "d:5x4x3", "hex:", "oval:4", "keyway:3", "square:-4", "keyway:8x2"] {
+            assert!(bore(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn fits_by_name_or_length() {
+        assert_eq!(fit("slide"), Ok(0.15));
+        assert_eq!(fit("0.2mm"), Ok(0.2));
+        assert!(fit("snug").is_err() && fit("-0.1").is_err());
     }
 }

@@ -5,7 +5,7 @@ use super::{
     Design, DesignError, DesignOptions, Scale, TeethStyle, ToothCount, bore_for, feasibility,
     placed_gear, placed_input,
 };
-use crate::assembly::{Assembly, Gear};
+use crate::assembly::{Assembly, Fittings, Gear};
 use crate::fit;
 use crate::geometry::{self, Point};
 use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
@@ -461,7 +461,7 @@ impl Attempt {
                 }
             }
             let outline = self.finished[i].points.clone();
-            let bore = bore_for(options.bore, &outline, &mut warnings, name)?;
+            let bore = bore_for(options, &outline, &mut warnings, name)?;
             gears.push(Gear {
                 name: name.to_owned(),
                 outline,
@@ -469,6 +469,7 @@ impl Attempt {
                 pitch_curve: curves[i].clone(),
                 input,
                 teeth: teeth[i],
+                fittings: Fittings::default(),
             });
         }
         let periods = teeth::cycle_periods(transmission);
@@ -494,6 +495,7 @@ impl Attempt {
                 thickness: options.thickness,
                 meshes: vec![[0, 1]],
                 axles: Vec::new(),
+                fixtures: Vec::new(),
             },
             fit: source.fit.clone(),
             drawings: source.drawings.map(|d| d.map(|d| d.gear)),

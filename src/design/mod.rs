@@ -2,7 +2,9 @@
 
 mod attempt;
 mod feasibility;
+mod fittings_record;
 mod options;
+pub mod outfit;
 mod record;
 mod saved;
 mod source;
@@ -24,7 +26,7 @@ use crate::meshing::{
 use crate::outline::Shape;
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
-use crate::solid::{Bore, fits};
+use crate::solid::Bore;
 use crate::teeth::ToothedPair;
 use attempt::{Attempt, Settings};
 use source::Source;
@@ -129,6 +131,7 @@ pub fn design(
     options: &DesignOptions,
 ) -> Result<Design, DesignError> {
     check(options)?;
+    options.outfit.check(options.thickness)?;
     let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
     made_from(&Source::fitted([driver, follower], fit, options.fit.symmetric), options)
 }
@@ -233,6 +236,8 @@ fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, Des
             made = next;
         }
     }
+    let said = outfit::fit_out(&mut made.assembly, &options.outfit, &made.names, made.pair.module)?;
+    made.warnings.extend(said);
     Ok(made)
 }
 
@@ -288,24 +293,21 @@ fn placed_input(shape: &Shape, gear: &FittedGear, pitch_curve: &[Point]) -> Vec<
 }
 
 fn bore_for(
-    choice: BoreChoice,
+    options: &DesignOptions,
     outline: &[Point],
     warnings: &mut Vec<String>,
     name: &str,
 ) -> Result<Option<Vec<Point>>, DesignError> {
     let tolerance = policy::BORE_CHORD_TOLERANCE;
-    match choice {
+    let with_play = |bore: Bore| options.outfit.fit.map_or(bore, |play| bore.with_play(play));
+    match options.bore {
         BoreChoice::Exactly(bore) => {
-            let polygon = bore.polygon(tolerance)?;
-            if let Some(hole) = &polygon {
-                fits(outline, hole, policy::BORE_WALL)?;
-            }
-            Ok(polygon)
+            Ok(with_play(bore).fitted(outline, policy::BORE_WALL, tolerance)?)
         }
         BoreChoice::AtMost(diameter) => {
             for share in [1.0, 0.8, 0.6, 0.4] {
-                let hole = Bore::Round { diameter: share * diameter }.polygon(tolerance)?;
-                if hole.as_ref().is_some_and(|h| fits(outline, h, policy::BORE_WALL).is_ok()) {
+                let bore = with_play(Bore::Round { diameter: share * diameter });
+                if let Ok(hole) = bore.fitted(outline, policy::BORE_WALL, tolerance) {
                     if share < 1.0 {
                         warnings.push(format!(
                             "the bore of the {name} is {:.1} mm: a wider one leaves too thin a wall",

@@ -1,5 +1,6 @@
 //! What a design can be told, and why it may fail.
 
+use super::outfit::{Outfit, OutfitError};
 use crate::fit::{FitError, FitOptions, LimitError, Ratio};
 use crate::meshing::ContactError;
 use crate::meshing::{DynamicsError, DynamicsOptions};
@@ -78,6 +79,8 @@ pub struct DesignOptions {
     pub thickness: f64,
     /// Hole for the axle.
     pub bore: BoreChoice,
+    /// What else the gears carry, and what they stand on.
+    pub outfit: Outfit,
     /// Carve the follower literally, as solids (paper, Figure 7), instead of along the exact envelope.
     pub carve_with_solids: bool,
     /// Whether gentler settings may be tried when the first pair is not good.
@@ -111,6 +114,7 @@ impl DesignOptions {
             scale: Scale::CenterDistance(80.0),
             thickness: 8.0,
             bore: BoreChoice::AtMost(5.0),
+            outfit: Outfit::default(),
             carve_with_solids: false,
             repair: true,
             runs: Vec::new(),
@@ -157,6 +161,9 @@ pub enum DesignError {
     /// Contact could not be analysed.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// The gears cannot carry what they should.
+    #[error(transparent)]
+    Outfit(#[from] OutfitError),
     /// A solid could not be made.
     #[error(transparent)]
     Solid(#[from] SolidError),

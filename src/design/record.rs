@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::Design;
+use super::fittings_record::{FittingsRecord, FixtureRecord};
 use crate::assembly::PlacedGear;
 use crate::geometry::Point;
 use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
@@ -19,6 +20,8 @@ pub struct Record {
     thickness: f64,
     driver: GearRecord,
     follower: GearRecord,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    fixtures: Vec<FixtureRecord>,
     motion: Motion,
     /// Of pairs that were fitted to two shapes.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -41,6 +44,8 @@ struct GearRecord {
     input: Vec<[f64; 2]>,
     /// Null for a gear that has no drawing, whose `input` is then empty.
     rotation_center_in_input: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fittings: Option<FittingsRecord>,
 }
 
 #[derive(Debug, Serialize)]
@@ -130,6 +135,7 @@ struct Settings {
     root_clearance: Option<f64>,
     chord_tolerance: f64,
     bore: String,
+    outfit: String,
     repair: bool,
 }
 
@@ -153,6 +159,7 @@ impl Record {
             thickness: design.assembly.thickness,
             driver: gear_record(&gears[0], center(0)),
             follower: gear_record(&gears[1], center(1)),
+            fixtures: design.assembly.fixtures.iter().map(FixtureRecord::new).collect(),
             motion: Motion {
                 driver_angle: design.assembly.driver_angle.clone(),
                 follower_angle: gears[1].angle.iter().map(|a| 0.0 - a).collect(),
@@ -207,6 +214,7 @@ impl Record {
                 root_clearance: options.root_clearance,
                 chord_tolerance: options.chord_tolerance,
                 bore: format!("{:?}", options.bore),
+                outfit: format!("{:?}", options.outfit),
                 repair: options.repair,
             },
         }
@@ -237,6 +245,7 @@ fn gear_record(placed: &PlacedGear, center: Option<Point>) -> GearRecord {
         bore: gear.bore.as_deref().map(plain),
         input: plain(&gear.input),
         rotation_center_in_input: center.map(|c| [c.x, c.y]),
+        fittings: FittingsRecord::new(&gear.fittings),
     }
 }
 

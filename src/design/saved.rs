@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::assembly::{Assembly, Gear, PlacedGear};
+use super::fittings_record::{FittingsRecord, FixtureRecord};
+use crate::assembly::{Assembly, Fixture, Gear, PlacedGear};
 use crate::geometry::{self, Point};
 use crate::policy;
 
@@ -30,6 +31,8 @@ pub struct SavedDesign {
     pub thickness: f64,
     /// Driver and follower, named so.
     pub gears: [Gear; 2],
+    /// Parts that stand still.
+    pub fixtures: Vec<Fixture>,
     /// Driver angle at each motion sample: from zero, increasing, over one whole cycle.
     pub driver_angle: Vec<f64>,
     /// How far the follower has turned, clockwise, at each of these samples.
@@ -118,6 +121,11 @@ impl SavedDesign {
             module: file.module,
             thickness: file.thickness,
             gears,
+            fixtures: file
+                .fixtures
+                .into_iter()
+                .map(FixtureRecord::read)
+                .collect::<Result<_, _>>()?,
             driver_angle: file.motion.driver_angle,
             follower_angle: file.motion.follower_angle,
             settings: file.settings,
@@ -145,6 +153,7 @@ impl SavedDesign {
             thickness: self.thickness,
             meshes: vec![[0, 1]],
             axles: Vec::new(),
+            fixtures: self.fixtures.clone(),
         }
     }
 }
@@ -162,6 +171,8 @@ struct File {
     thickness: f64,
     driver: FileGear,
     follower: FileGear,
+    #[serde(default)]
+    fixtures: Vec<FixtureRecord>,
     motion: FileMotion,
     #[serde(default)]
     settings: Value,
@@ -177,6 +188,8 @@ struct FileGear {
     bore: Option<Vec<[f64; 2]>>,
     #[serde(default)]
     input: Vec<[f64; 2]>,
+    #[serde(default)]
+    fittings: FittingsRecord,
 }
 
 #[derive(Deserialize)]
@@ -216,6 +229,7 @@ fn gear(name: &str, file: FileGear) -> Result<Gear, String> {
         pitch_curve: ring("pitch curve", file.pitch_curve)?,
         input: file.input.into_iter().map(|[x, y]| Point::new(x, y)).collect(),
         teeth: file.teeth,
+        fittings: file.fittings.read(name)?,
     })
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Export, ExportError, Parts, keys::keys, write_atomically};
 use crate::assembly::{Assembly, PlacedGear};
+use crate::geometry::perimeter;
 use crate::policy;
 use crate::solid::{Mesh, shade};
 use gltf_json as json;
@@ -20,10 +21,13 @@ const METRES_PER_MM: f64 = 1e-3;
 /// Linear RGB of the driver's and the followers' plastic.
 const LIGHT_BLUE: [f32; 4] = [0.29, 0.58, 0.86, 1.0];
 const DARK_BLUE: [f32; 4] = [0.03, 0.09, 0.29, 1.0];
+/// That of base plates.
+const GREY: [f32; 4] = [0.42, 0.42, 0.4, 1.0];
 const ROUGHNESS: f32 = 0.55;
 
 /// `pair.glb`: a named node per gear, in metres, y up as glTF wants it, turning through one whole
-/// cycle. `asset.extras` holds centre distance (mm), ratio and teeth.
+/// cycle; fixtures stand still as nodes of their own names. The extras of scene and asset hold tool, units, centre
+/// distance (mm), ratio, module (mm) and teeth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glb {
     /// Time the driver takes for one turn, s.
@@ -57,9 +61,13 @@ impl Glb {
     /// When the data outgrows the format.
     pub fn bytes(&self, parts: Parts<'_>) -> io::Result<Vec<u8>> {
         let mut scene = Builder::default();
-        let nodes: Vec<_> =
+        let mut nodes: Vec<_> =
             parts.iter().enumerate().map(|(i, (gear, mesh))| scene.gear(i, gear, mesh)).collect();
         scene.animate(parts.assembly, &nodes, self.seconds_per_driver_turn / TAU);
+        for (fixture, mesh) in parts.fixtures() {
+            let place = [0.0, 0.0, (METRES_PER_MM * fixture.z) as f32];
+            nodes.push(scene.part(&fixture.name, mesh, GREY, place, None));
+        }
         // A quarter turn about x takes the gears' z up to glTF's y up.
         let pair = scene.root.push(json::Node {
             name: Some("pair".to_owned()),
@@ -69,7 +77,7 @@ impl Glb {
         });
         let shown = json::Scene {
             extensions: None,
-            extras: None,
+            extras: Some(RawValue::from_string(about(parts.assembly).to_string())?),
             name: Some("pair".to_owned()),
             nodes: vec![pair],
         };
@@ -102,7 +110,17 @@ fn about(assembly: &Assembly) -> serde_json::Value {
             })
         })
         .collect();
+    let module = assembly.gears.first().map(|g| {
+        let teeth = std::f64::consts::PI * f64::from(g.gear.teeth);
+        perimeter(&g.gear.pitch_curve) / teeth
+    });
+    let fixtures: Vec<&str> = assembly.fixtures.iter().map(|f| f.name.as_str()).collect();
     serde_json::json!({
+        "tool": concat!("centrode ", env!("CARGO_PKG_VERSION")),
+        "units": "mm",
+        "module_mm": module,
+        "thickness_mm": assembly.thickness,
+        "fixtures": fixtures,
         "center_distance_mm": distance,
         // Whole turns over a closed cycle: rounded to get rid of the last bits.
         "ratio": assembly.gears.get(1).map(|g| (1e9 * driver / turned(g)).round() / 1e9),
@@ -118,6 +136,23 @@ struct Builder {
 
 impl Builder {
     fn gear(&mut self, number: usize, placed: &PlacedGear, mesh: &Mesh) -> Index<json::Node> {
+        let color = if number.is_multiple_of(2) { LIGHT_BLUE } else { DARK_BLUE };
+        let place =
+            [placed.axis.x, placed.axis.y, placed.level].map(|c| (METRES_PER_MM * c) as f32);
+        let start = placed.angle.first().copied().unwrap_or(0.0);
+        let turn = json::scene::UnitQuaternion(about_z(start));
+        self.part(&placed.gear.name, mesh, color, place, Some(turn))
+    }
+
+    /// A node with a mesh and a material of its own.
+    fn part(
+        &mut self,
+        name: &str,
+        mesh: &Mesh,
+        color: [f32; 4],
+        place: [f32; 3],
+        turn: Option<json::scene::UnitQuaternion>,
+    ) -> Index<json::Node> {
         let shading = shade(mesh, policy::CREASE_ANGLE);
         let positions: Vec<[f32; 3]> = shading
             .vertices
@@ -129,12 +164,11 @@ impl Builder {
         let positions = self.floats(&positions, Type::Vec3, points, true);
         let normals = self.floats(&normals, Type::Vec3, points, false);
         let indices = self.indices(&shading.corners);
-        let material = self.material(number, &placed.gear.name);
-        let name = &placed.gear.name;
+        let material = self.material(color, name);
         let mesh = self.root.push(json::Mesh {
             extensions: None,
             extras: None,
-            name: Some(name.clone()),
+            name: Some(name.to_owned()),
             primitives: vec![json::mesh::Primitive {
                 attributes: [
                     (Valid(json::mesh::Semantic::Positions), positions),
@@ -150,23 +184,19 @@ impl Builder {
             }],
             weights: None,
         });
-        let place =
-            [placed.axis.x, placed.axis.y, placed.level].map(|c| (METRES_PER_MM * c) as f32);
-        let start = placed.angle.first().copied().unwrap_or(0.0);
         self.root.push(json::Node {
-            name: Some(name.clone()),
+            name: Some(name.to_owned()),
             mesh: Some(mesh),
             translation: Some(place),
-            rotation: Some(json::scene::UnitQuaternion(about_z(start))),
+            rotation: turn,
             ..Default::default()
         })
     }
 
-    fn material(&mut self, number: usize, gear: &str) -> Index<json::Material> {
+    fn material(&mut self, color: [f32; 4], part: &str) -> Index<json::Material> {
         use json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
-        let color = if number.is_multiple_of(2) { LIGHT_BLUE } else { DARK_BLUE };
         self.root.push(json::Material {
-            name: Some(format!("{gear} plastic")),
+            name: Some(format!("{part} plastic")),
             alpha_mode: Valid(json::material::AlphaMode::Opaque),
             pbr_metallic_roughness: PbrMetallicRoughness {
                 base_color_factor: PbrBaseColorFactor(color),
@@ -387,5 +417,8 @@ mod tests {
         assert_eq!(extras["center_distance_mm"], 80.0);
         assert_eq!(extras["ratio"], 1.0);
         assert_eq!(extras["gears"][1]["teeth"], 16);
+        assert_eq!(document["scenes"][0]["extras"], *extras);
+        let module = perimeter(&assembly.gears[0].gear.pitch_curve) / (16.0 * TAU / 2.0);
+        assert!((extras["module_mm"].as_f64().unwrap() - module).abs() < 1e-9);
     }
 }

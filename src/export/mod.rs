@@ -46,7 +46,7 @@ use std::path::{Path, PathBuf};
 pub struct Parts<'a> {
     /// The gears, their places and their motion.
     pub assembly: &'a Assembly,
-    /// The solid of each gear, in the gears' order, each in its gear's own frame, mm.
+    /// The solid of each gear, in the gears' order, then of each fixture, each in its own frame, mm.
     pub meshes: &'a [Mesh],
 }
 
@@ -54,6 +54,12 @@ impl<'a> Parts<'a> {
     /// Each gear with its solid.
     fn iter(self) -> impl ExactSizeIterator<Item = (&'a crate::assembly::PlacedGear, &'a Mesh)> {
         self.assembly.gears.iter().zip(self.meshes)
+    }
+
+    /// Each part that stands still with its solid.
+    fn fixtures(self) -> impl ExactSizeIterator<Item = (&'a crate::assembly::Fixture, &'a Mesh)> {
+        let rest = self.meshes.get(self.assembly.gears.len()..).unwrap_or_default();
+        self.assembly.fixtures.iter().zip(rest)
     }
 }
 
@@ -104,6 +110,7 @@ mod tests {
             thickness: 6.0,
             meshes: vec![[0, 1]],
             axles: Vec::new(),
+            fixtures: Vec::new(),
         };
         let meshes = assembly_solids(&assembly).unwrap();
         (assembly, meshes)

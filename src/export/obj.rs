@@ -1,13 +1,13 @@
-//! Wavefront OBJ: all gears in one file, standing in mesh.
+//! Wavefront OBJ: all parts in one file, standing in mesh.
 
 use super::{Export, ExportError, Parts, write_atomically};
 use crate::assembly::Assembly;
 use crate::policy;
-use crate::solid::shade;
+use crate::solid::{Mesh, shade};
 use obj_exporter::{Geometry, ObjSet, Object, Primitive, Shape, Vertex};
 use std::path::{Path, PathBuf};
 
-/// `pair.obj`: one object per gear in the first pose of the motion, mm, six decimals, with normals.
+/// `pair.obj`: one object per part in the first pose of the motion, mm, six decimals, with normals.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Obj;
 
@@ -26,37 +26,37 @@ impl Export for Obj {
 
 fn objects(parts: Parts<'_>) -> Vec<Object> {
     let vertex = |[x, y, z]: [f64; 3]| Vertex { x, y, z };
-    parts
-        .iter()
-        .map(|(placed, mesh)| {
-            let shading = shade(mesh, policy::CREASE_ANGLE);
-            let moved = |p: &[f64; 3]| {
-                vertex([p[0] + placed.axis.x, p[1] + placed.axis.y, p[2] + placed.level])
-            };
-            let faces = mesh.triangles.iter().zip(&shading.corners).map(|(t, n)| {
-                let [a, b, c] = [0, 1, 2].map(|k| (t[k] as usize, None, Some(n[k] as usize)));
-                Shape {
-                    primitive: Primitive::Triangle(a, b, c),
-                    groups: Vec::new(),
-                    smoothing_groups: Vec::new(),
-                }
-            });
-            Object {
-                name: placed.gear.name.clone(),
-                vertices: mesh.positions.iter().map(moved).collect(),
-                tex_vertices: Vec::new(),
-                normals: shading.normals.iter().map(|&n| vertex(n)).collect(),
-                geometry: vec![Geometry { material_name: None, shapes: faces.collect() }],
+    let object = |name: &str, mesh: &Mesh, [dx, dy, dz]: [f64; 3]| {
+        let shading = shade(mesh, policy::CREASE_ANGLE);
+        let moved = |p: &[f64; 3]| vertex([p[0] + dx, p[1] + dy, p[2] + dz]);
+        let faces = mesh.triangles.iter().zip(&shading.corners).map(|(t, n)| {
+            let [a, b, c] = [0, 1, 2].map(|k| (t[k] as usize, None, Some(n[k] as usize)));
+            Shape {
+                primitive: Primitive::Triangle(a, b, c),
+                groups: Vec::new(),
+                smoothing_groups: Vec::new(),
             }
-        })
-        .collect()
+        });
+        Object {
+            name: name.to_owned(),
+            vertices: mesh.positions.iter().map(moved).collect(),
+            tex_vertices: Vec::new(),
+            normals: shading.normals.iter().map(|&n| vertex(n)).collect(),
+            geometry: vec![Geometry { material_name: None, shapes: faces.collect() }],
+        }
+    };
+    let gears = parts.iter().map(|(placed, mesh)| {
+        object(&placed.gear.name, mesh, [placed.axis.x, placed.axis.y, placed.level])
+    });
+    let fixtures = parts.fixtures().map(|(f, mesh)| object(&f.name, mesh, [0.0, 0.0, f.z]));
+    gears.chain(fixtures).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::tests::wavy_pair;
     use super::*;
-    use crate::solid::{Expected, Mesh, check};
+    use crate::solid::{Expected, check};
 
     #[test]
     fn both_gears_read_back_sound_and_in_place() {

@@ -1,22 +1,26 @@
-//! STL for slicers: binary, one file per gear.
+//! STL for slicers: binary, one file per part.
 
 use super::{Export, ExportError, Parts, write_atomically};
 use crate::assembly::Assembly;
 use std::path::{Path, PathBuf};
 
-/// `<gear>.stl` for each gear, in the gear's own frame, mm (STL itself has no unit).
+/// `<part>.stl` for each gear and each fixture, such as `base.stl`, in the part's own frame, mm (STL itself has no unit).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stl;
 
 impl Export for Stl {
     fn file_names(&self, assembly: &Assembly) -> Vec<String> {
-        assembly.gears.iter().map(|g| format!("{}.stl", g.gear.name)).collect()
+        let gears = assembly.gears.iter().map(|g| &g.gear.name);
+        let names = gears.chain(assembly.fixtures.iter().map(|f| &f.name));
+        names.map(|name| format!("{name}.stl")).collect()
     }
 
     fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
         let paths: Vec<PathBuf> =
             self.file_names(parts.assembly).iter().map(|name| folder.join(name)).collect();
-        for ((_, mesh), path) in parts.iter().zip(&paths) {
+        let meshes =
+            parts.iter().map(|(_, mesh)| mesh).chain(parts.fixtures().map(|(_, mesh)| mesh));
+        for (mesh, path) in meshes.zip(&paths) {
             let facets: Vec<stl_io::Triangle> = mesh
                 .triangles
                 .iter()

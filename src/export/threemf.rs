@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-/// `pair.3mf`: one named, coloured object per gear in millimetres, standing in mesh, moved as a whole
+/// `pair.3mf`: one named, coloured object per part in millimetres, standing in mesh, moved as a whole
 /// so that nothing lies at negative coordinates; a small picture for file managers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ThreeMf;
@@ -61,12 +61,14 @@ fn model(parts: Parts<'_>) -> String {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" \
          xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n",
     );
-    let names: Vec<&str> = parts.iter().map(|(g, _)| g.gear.name.as_str()).collect();
+    let gears: Vec<&str> = parts.iter().map(|(g, _)| g.gear.name.as_str()).collect();
+    let names: Vec<&str> =
+        gears.iter().copied().chain(parts.fixtures().map(|(f, _)| f.name.as_str())).collect();
     let teeth: Vec<String> =
         parts.iter().map(|(g, _)| format!("{}: {} teeth", g.gear.name, g.gear.teeth)).collect();
     let version = concat!("centrode ", env!("CARGO_PKG_VERSION"));
     for (name, value) in [
-        ("Title", format!("Non-circular gears: {}", names.join(" and "))),
+        ("Title", format!("Non-circular gears: {}", gears.join(" and "))),
         ("Application", version.to_owned()),
         ("Description", teeth.join(", ")),
     ] {
@@ -74,19 +76,20 @@ fn model(parts: Parts<'_>) -> String {
     }
     xml.push_str(" <resources>\n  <basematerials id=\"1\">\n");
     for (i, name) in names.iter().enumerate() {
-        let [r, g, b] = color(i);
+        let [r, g, b] = if i < gears.len() { color(i) } else { policy::FIXTURE_COLOR };
         let name = escaped(name);
         let _ = writeln!(xml, "   <base name=\"{name}\" displaycolor=\"#{r:02X}{g:02X}{b:02X}\"/>");
     }
     xml.push_str("  </basematerials>\n");
-    for (i, (placed, mesh)) in parts.iter().enumerate() {
-        object(&mut xml, i, &escaped(&placed.gear.name), mesh);
+    let meshes = parts.iter().map(|(_, mesh)| mesh).chain(parts.fixtures().map(|(_, mesh)| mesh));
+    for (i, (name, mesh)) in names.iter().zip(meshes).enumerate() {
+        object(&mut xml, i, &escaped(name), mesh);
     }
     xml.push_str(" </resources>\n <build>\n");
     let corner = low_corner(parts);
     for (i, (placed, _)) in parts.iter().enumerate() {
         let (sin, cos) = start(placed).sin_cos();
-        let place = placed.axis - corner;
+        let place = placed.axis - Point::new(corner[0], corner[1]);
         let _ = writeln!(
             xml,
             "  <item objectid=\"{}\" transform=\"{cos} {sin} 0 {} {cos} 0 0 0 1 {:.6} {:.6} {:.6}\"/>",
@@ -94,7 +97,17 @@ fn model(parts: Parts<'_>) -> String {
             0.0 - sin,
             place.x,
             place.y,
-            placed.level
+            placed.level - corner[2]
+        );
+    }
+    for (i, (fixture, _)) in parts.fixtures().enumerate() {
+        let _ = writeln!(
+            xml,
+            "  <item objectid=\"{}\" transform=\"1 0 0 0 1 0 0 0 1 {:.6} {:.6} {:.6}\"/>",
+            gears.len() + i + 2,
+            0.0 - corner[0],
+            0.0 - corner[1],
+            fixture.z - corner[2]
         );
     }
     xml.push_str(" </build>\n</model>\n");
@@ -106,13 +119,19 @@ fn start(placed: &crate::assembly::PlacedGear) -> f64 {
 }
 
 /// Lower left corner of everything as it stands.
-fn low_corner(parts: Parts<'_>) -> Point {
-    let mut low = Point::new(f64::INFINITY, f64::INFINITY);
+fn low_corner(parts: Parts<'_>) -> [f64; 3] {
+    let mut low = [f64::INFINITY, f64::INFINITY, 0.0];
+    let mut reach = |x: f64, y: f64, z: f64| {
+        low = [low[0].min(x), low[1].min(y), low[2].min(z)];
+    };
     for (placed, mesh) in parts.iter() {
         for p in &mesh.positions {
             let q = rotate(Point::new(p[0], p[1]), start(placed)) + placed.axis.coords;
-            low = Point::new(low.x.min(q.x), low.y.min(q.y));
+            reach(q.x, q.y, p[2]);
         }
+    }
+    for (fixture, mesh) in parts.fixtures() {
+        mesh.positions.iter().for_each(|p| reach(p[0], p[1], p[2] + fixture.z));
     }
     low
 }

@@ -59,7 +59,8 @@ impl Figures {
     /// Of a finished pair.
     #[must_use]
     pub fn of(design: &Design) -> Self {
-        let objective = design.objective();
+        // A gallery's designs are fitted to two shapes, so they have both.
+        let objective = design.objective().copied().unwrap_or_default();
         let summary = &design.contact.summary;
         let count = |i: usize| design.assembly.gears.get(i).map_or(0, |g| g.gear.outline.len());
         Self {
@@ -67,7 +68,7 @@ impl Figures {
             shape: objective.shape,
             total: objective.total,
             torque: design.centrodes.transmission.max_derivative(),
-            iou: design.likeness,
+            iou: design.likeness.map(Option::unwrap_or_default),
             teeth: Some(design.teeth),
             module: Some(design.pair.module),
             lean: design.centrodes.max_lean(),

@@ -1,9 +1,11 @@
 //! Plane geometry shared by every room: points, polygons, booleans, splines.
 
 pub mod curves;
+mod letters;
 mod polygon;
 mod region;
 
+pub use letters::{Lettering, LetteringError, has_letter, lettering};
 pub use polygon::{
     area, bounds, centroid, contains, first_self_crossing, intersection_over_union, perimeter,
     signed_area,

@@ -527,6 +527,7 @@ mod tests {
             pitch_curve: pitch_curve.clone(),
             outline: spur.outline(start, 24, spur.teeth),
             bore: None,
+            fittings: crate::assembly::Fittings::default(),
             teeth: spur.teeth,
         };
         PairModel {

@@ -2,7 +2,7 @@
 //! two equal ellipses turning about a focus each, with waves for teeth.
 
 use super::{Note, NoteKind, Plot, ReportData, Section, Verdict};
-use crate::assembly::{Assembly, Gear, PlacedGear};
+use crate::assembly::{Assembly, Fittings, Gear, PlacedGear};
 use crate::geometry::{Point, quarter_turn};
 use std::f64::consts::{PI, TAU};
 
@@ -31,6 +31,7 @@ pub(super) fn ellipses() -> Assembly {
             .collect(),
         pitch_curve,
         teeth: TEETH,
+        fittings: Fittings::default(),
     };
     Assembly {
         gears: vec![
@@ -51,6 +52,7 @@ pub(super) fn ellipses() -> Assembly {
         thickness: 6.0,
         meshes: vec![[0, 1]],
         axles: Vec::new(),
+        fixtures: Vec::new(),
     }
 }
 

@@ -30,6 +30,13 @@ impl Solid {
         Self(backend::extrude(&rings, height))
     }
 
+    /// The solid inside a closed mesh, whose coordinates are taken in single precision; empty where the
+    /// kernel finds the mesh unsound.
+    #[must_use]
+    pub fn from_mesh(mesh: &Mesh) -> Self {
+        Self(backend::from_mesh(mesh))
+    }
+
     /// Both solids as one.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
@@ -76,6 +83,12 @@ impl Solid {
     #[must_use]
     pub fn rotate_z(&self, angle: f64) -> Self {
         Self(self.0.rotate(0.0, 0.0, angle.to_degrees()))
+    }
+
+    /// Laid down: what pointed along z points along x, what along x now along -z.
+    #[must_use]
+    pub fn laid_along_x(&self) -> Self {
+        Self(self.0.rotate(0.0, 90.0, 0.0))
     }
 
     /// Whether there is nothing in it.
@@ -133,6 +146,12 @@ mod backend {
         solid.translate(x, y, z)
     }
 
+    pub(super) fn from_mesh(mesh: &Mesh) -> Manifold {
+        let positions: Vec<f32> = mesh.positions.iter().flatten().map(|&c| c as f32).collect();
+        let triangles: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
+        manifold_rs::Mesh::new(&positions, &triangles).to_manifold()
+    }
+
     pub(super) fn mesh(solid: &Manifold) -> Mesh {
         let mesh = solid.to_mesh();
         let stride = (mesh.num_props() as usize).max(3);
@@ -161,6 +180,7 @@ mod backend {
     use super::{Mesh, Point};
     use manifold_rust::linalg::{Vec2, Vec3};
     pub(super) use manifold_rust::manifold::Manifold;
+    use manifold_rust::types::MeshGL64;
 
     pub(super) fn extrude(rings: &[Vec<Point>], height: f64) -> Manifold {
         let rings =
@@ -170,6 +190,16 @@ mod backend {
 
     pub(super) fn translate(solid: &Manifold, x: f64, y: f64, z: f64) -> Manifold {
         solid.translate(Vec3::new(x, y, z))
+    }
+
+    pub(super) fn from_mesh(mesh: &Mesh) -> Manifold {
+        let single = |&c: &f64| f64::from(c as f32);
+        Manifold::from_mesh_gl64(&MeshGL64 {
+            num_prop: 3,
+            vert_properties: mesh.positions.iter().flatten().map(single).collect(),
+            tri_verts: mesh.triangles.iter().flatten().map(|&i| u64::from(i)).collect(),
+            ..MeshGL64::default()
+        })
     }
 
     pub(super) fn mesh(solid: &Manifold) -> Mesh {

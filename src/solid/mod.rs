@@ -5,23 +5,31 @@
 //! mm. No mesh leaves this room before [`check`] has found it closed, oriented,
 //! two-manifold, in one piece, of the right genus and volume.
 
+mod bevel;
 mod bore;
 mod carve;
 mod check;
 mod error;
+mod fixture;
 mod gear;
 mod kernel;
 mod mesh;
+mod screw;
 mod shading;
+mod wall;
 
-pub use bore::{Bore, circle, fits};
+pub use bore::{Bore, circle, pin_radius};
 pub use carve::{Carved, carve_follower_with_manifold};
 pub use check::{Expected, Fault, check};
 pub use error::SolidError;
+pub use fixture::fixture_solid;
 pub use gear::{assembly_solids, gear_solid};
 pub use kernel::Solid;
 pub use mesh::Mesh;
 pub use shading::{Shading, shade};
+pub use wall::fits;
 
+#[cfg(test)]
+mod fitted_tests;
 #[cfg(test)]
 pub(crate) use gear::tests;

@@ -1,0 +1,144 @@
+//! Options for hubs, holes, lettering and the base plate.
+
+use centrode::design::outfit::{Base, HubChoice, Label, LabelText, Lightening, Outfit, Screws};
+use centrode::policy;
+use centrode::solid::Bore;
+use clap::{Args, ValueEnum};
+
+use super::units;
+
+/// What the gears carry and stand on.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Axles, hubs and base")]
+pub(crate) struct OutfitArgs {
+    /// Hole for the axle: round:5 (or 5mm), d:5, d:5x4.5, hex:6, square:4, keyway:8, keyway:8x2x1, lego, none [default: 5mm, or less where there is no room]
+    #[arg(long, value_name = "BORE", value_parser = units::bore, allow_hyphen_values = true)]
+    pub(crate) bore: Option<Bore>,
+    /// Play on each side of bores and pins: tight, slide, loose, or a length [default: none; 0.1mm for lego]
+    #[arg(long, value_name = "FIT", value_parser = units::fit, allow_hyphen_values = true)]
+    pub(crate) fit: Option<f64>,
+    /// Hub on the top face, this wide [default with a hub: as much as its bore needs]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) hub_diameter: Option<f64>,
+    /// Hub on the top face, this high [default with a hub: 6mm]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) hub_height: Option<f64>,
+    /// Radial hole through the hub for a set screw, this wide: 2.5mm to cut a thread for M3
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) set_screw: Option<f64>,
+    /// Screw holes in a circle round the axis
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub(crate) screws: Option<u32>,
+    /// Width of the screw holes [default: 3.2mm, for M3]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, requires = "screws", allow_hyphen_values = true)]
+    pub(crate) screw_diameter: Option<f64>,
+    /// Radius of their circle [default: half way between bore or hub and roots]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, requires = "screws", allow_hyphen_values = true)]
+    pub(crate) screw_circle: Option<f64>,
+    /// Holes that save material and leave a rim and spokes: their number, or auto
+    #[arg(long, value_name = "N", value_parser = lightening, allow_hyphen_values = true)]
+    pub(crate) lightening: Option<Lightening>,
+    /// Raised letters: the shapes' names, or --emboss=TEXT, or --emboss=DRIVER,FOLLOWER
+    #[arg(long, value_name = "TEXT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "engrave")]
+    pub(crate) emboss: Option<String>,
+    /// The same, sunk into the face
+    #[arg(long, value_name = "TEXT", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub(crate) engrave: Option<String>,
+    /// Arrowheads 0.4 mm deep that meet when the gears are put together right; auto: with letters or a base
+    #[arg(long, value_enum, default_value_t = MarkArg::Auto)]
+    pub(crate) phase_mark: MarkArg,
+    /// Bevel of the bottom edges of teeth and bore, against the elephant's foot of a first layer
+    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
+    pub(crate) chamfer: f64,
+    /// Base plate: with a round pin for each gear, or with holes every 8 mm for cross axles
+    #[arg(long, value_enum, default_value_t = BaseArg::None)]
+    pub(crate) base: BaseArg,
+    /// Thickness of the base plate
+    #[arg(long, default_value = "4mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) base_thickness: f64,
+}
+
+/// When phase marks are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MarkArg {
+    /// With letters or a base
+    Auto,
+    /// Always
+    On,
+    /// Never
+    Off,
+}
+
+/// What the gears stand on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BaseArg {
+    /// Nothing
+    None,
+    /// A plate with pins
+    Pins,
+    /// A plate with holes of a Lego beam
+    Lego,
+}
+
+impl OutfitArgs {
+    /// The bore asked for; on a Lego plate a cross axle's unless another is.
+    pub(crate) fn bore(&self) -> Option<Bore> {
+        let cross = Bore::Lego { play: policy::LEGO_AXLE_PLAY };
+        self.bore.or_else(|| (self.base == BaseArg::Lego).then_some(cross))
+    }
+
+    /// As the library takes it.
+    pub(crate) fn outfit(&self) -> Outfit {
+        let hub = self.hub_diameter.or(self.hub_height).or(self.set_screw);
+        let label = |text: &Option<String>, raised| {
+            text.as_deref().map(|text| Label { text: written(text), raised })
+        };
+        Outfit {
+            fit: self.fit,
+            hub: hub.map(|_| HubChoice {
+                diameter: self.hub_diameter,
+                height: self.hub_height.unwrap_or(policy::HUB_HEIGHT),
+                set_screw: self.set_screw,
+            }),
+            screws: self.screws.map(|count| Screws {
+                count,
+                diameter: self.screw_diameter.unwrap_or(policy::SCREW_DIAMETER),
+                circle: self.screw_circle,
+            }),
+            lightening: self.lightening.unwrap_or_default(),
+            label: label(&self.emboss, true).or_else(|| label(&self.engrave, false)),
+            phase_mark: match self.phase_mark {
+                MarkArg::Auto => None,
+                MarkArg::On => Some(true),
+                MarkArg::Off => Some(false),
+            },
+            chamfer: self.chamfer,
+            base: match self.base {
+                BaseArg::None => Base::None,
+                BaseArg::Pins => Base::Pins,
+                BaseArg::Lego => Base::Lego,
+            },
+            base_thickness: self.base_thickness,
+        }
+    }
+}
+
+fn written(text: &str) -> LabelText {
+    match text.split_once(',') {
+        _ if text.is_empty() => LabelText::Names,
+        Some((driver, follower)) => {
+            LabelText::Each([driver, follower].map(|t| t.trim().to_owned()).to_vec())
+        }
+        None => LabelText::Same(text.to_owned()),
+    }
+}
+
+fn lightening(text: &str) -> Result<Lightening, String> {
+    match text {
+        "auto" => Ok(Lightening::Auto),
+        "none" => Ok(Lightening::None),
+        _ => text.parse().map(Lightening::Holes).map_err(|_| {
+            format!("'{text}' is not a number of holes; write one such as 5, or auto")
+        }),
+    }
+}

@@ -1,0 +1,160 @@
+//! Fittings and fixtures as `design.json` holds them. Records written before there were any lack them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::assembly::{Fittings, Fixture, Hub, Mark, Opening, Post};
+use crate::geometry::{self, Point};
+
+type Ring = Vec<[f64; 2]>;
+
+/// What a gear carries.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(super) struct FittingsRecord {
+    openings: Vec<OpeningRecord>,
+    hub: Option<HubRecord>,
+    marks: Vec<MarkRecord>,
+    chamfer: f64,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct OpeningRecord {
+    name: String,
+    ring: Ring,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct HubRecord {
+    radius: f64,
+    height: f64,
+    set_screw: Option<f64>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct MarkRecord {
+    name: String,
+    height: f64,
+    face: Vec<Ring>,
+}
+
+/// A part that stands still.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct FixtureRecord {
+    name: String,
+    z: f64,
+    thickness: f64,
+    outline: Ring,
+    holes: Vec<Ring>,
+    posts: Vec<PostRecord>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct PostRecord {
+    from: f64,
+    to: f64,
+    ring: Ring,
+    hole: Option<usize>,
+}
+
+fn plain(ring: &[Point]) -> Ring {
+    ring.iter().map(|p| [p.x, p.y]).collect()
+}
+
+/// A ring that turns as it must: +1 counter-clockwise, -1 clockwise.
+fn ring(what: &str, points: Ring, turn: f64) -> Result<Vec<Point>, String> {
+    let points: Vec<Point> = points.into_iter().map(|[x, y]| Point::new(x, y)).collect();
+    let sound = points.len() > 2 && points.iter().all(|p| p.x.is_finite() && p.y.is_finite());
+    if sound && turn * geometry::signed_area(&points) > 0.0 {
+        Ok(points)
+    } else {
+        Err(format!("{what} is not a closed curve that runs the right way round"))
+    }
+}
+
+impl FittingsRecord {
+    pub(super) fn new(fittings: &Fittings) -> Option<Self> {
+        if fittings.is_empty() {
+            return None;
+        }
+        let Fittings { openings, hub, marks, chamfer } = fittings;
+        let opening = |o: &Opening| OpeningRecord { name: o.name.clone(), ring: plain(&o.ring) };
+        let mark = |m: &Mark| MarkRecord {
+            name: m.name.clone(),
+            height: m.height,
+            face: m.face.iter().map(|r| plain(r)).collect(),
+        };
+        let hub =
+            hub.map(|Hub { radius, height, set_screw }| HubRecord { radius, height, set_screw });
+        Some(Self {
+            openings: openings.iter().map(opening).collect(),
+            hub,
+            marks: marks.iter().map(mark).collect(),
+            chamfer: *chamfer,
+        })
+    }
+
+    /// # Errors
+    /// What is wrong, as half a sentence. Sizes that make no solid are found when one is made.
+    pub(super) fn read(self, gear: &str) -> Result<Fittings, String> {
+        let openings = self.openings.into_iter().map(|o| {
+            let what = format!("{} of its {gear}", o.name);
+            Ok(Opening { ring: ring(&what, o.ring, 1.0)?, name: o.name })
+        });
+        let marks = self.marks.into_iter().map(|m| {
+            let what = format!("{} of its {gear}", m.name);
+            let turns = std::iter::once(1.0).chain(std::iter::repeat(-1.0));
+            let face = m.face.into_iter().zip(turns).map(|(r, turn)| ring(&what, r, turn));
+            Ok(Mark { name: m.name, face: face.collect::<Result<_, String>>()?, height: m.height })
+        });
+        let hub = self.hub.map(|HubRecord { radius, height, set_screw }| Hub {
+            radius,
+            height,
+            set_screw,
+        });
+        Ok(Fittings {
+            openings: openings.collect::<Result<_, String>>()?,
+            hub,
+            marks: marks.collect::<Result<_, String>>()?,
+            chamfer: self.chamfer,
+        })
+    }
+}
+
+impl FixtureRecord {
+    pub(super) fn new(fixture: &Fixture) -> Self {
+        let post =
+            |p: &Post| PostRecord { from: p.from, to: p.to, ring: plain(&p.ring), hole: p.hole };
+        Self {
+            name: fixture.name.clone(),
+            z: fixture.z,
+            thickness: fixture.thickness,
+            outline: plain(&fixture.outline),
+            holes: fixture.holes.iter().map(|h| plain(h)).collect(),
+            posts: fixture.posts.iter().map(post).collect(),
+        }
+    }
+
+    /// # Errors
+    /// What is wrong, as half a sentence.
+    pub(super) fn read(self) -> Result<Fixture, String> {
+        // The name becomes that of a file.
+        let harmless = |c: char| c.is_ascii_alphanumeric() || "-_ ".contains(c);
+        if self.name.is_empty() || !self.name.chars().all(harmless) {
+            return Err(format!("a fixture is called {:?}", self.name));
+        }
+        let what = format!("its {}", self.name);
+        let counter_clockwise = |r: Ring| ring(&what, r, 1.0);
+        let post = |p: PostRecord| {
+            let PostRecord { from, to, ring, hole } = p;
+            Ok(Post { ring: counter_clockwise(ring)?, hole, from, to })
+        };
+        Ok(Fixture {
+            outline: counter_clockwise(self.outline)?,
+            holes: self.holes.into_iter().map(counter_clockwise).collect::<Result<_, _>>()?,
+            thickness: self.thickness,
+            posts: self.posts.into_iter().map(post).collect::<Result<_, String>>()?,
+            z: self.z,
+            name: self.name,
+        })
+    }
+}

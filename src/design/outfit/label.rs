@@ -1,0 +1,120 @@
+//! Lettering: where it goes and how large it can be.
+
+use super::{Label, LabelText, OutfitError, Taken};
+use crate::assembly::{Gear, Mark};
+use crate::geometry::{self, Lettering, Point, has_letter, lettering};
+use crate::outline::simplify;
+use crate::policy;
+
+/// Writes on gear number `i`. Names lose what no font has and are left out where they do not fit,
+/// with a warning.
+///
+/// # Errors
+/// A text of the user's own that has no room or no letters.
+pub(super) fn add(
+    gear: &mut Gear,
+    choice: &Label,
+    i: usize,
+    names: &[String],
+    taken: &mut Taken,
+) -> Result<Option<String>, OutfitError> {
+    let (text, own) = match &choice.text {
+        LabelText::Names => (names.get(i).unwrap_or(&gear.name).clone(), false),
+        LabelText::Same(text) => (text.clone(), true),
+        LabelText::Each(texts) => (texts.get(i).cloned().unwrap_or_default(), true),
+    };
+    let text = if own { text } else { text.chars().filter(|c| has_letter(*c)).collect() };
+    let made = match lettering(&text, 1.0) {
+        Err(_) if !own => {
+            return Ok(Some(format!("the {} bears no name: no font here can write it", gear.name)));
+        }
+        made => made?,
+    };
+    let Some((place, height)) = Room::of(gear, taken).and_then(|room| room.best(&made)) else {
+        if own {
+            let (gear, least) = (gear.name.clone(), policy::LETTERS_LEAST);
+            return Err(OutfitError::NoRoomForText { gear, text, least });
+        }
+        return Ok(Some(format!("the {} bears no name: there is no room for it", gear.name)));
+    };
+    let up = if choice.raised { policy::EMBOSSING_HEIGHT } else { -policy::ENGRAVING_DEPTH };
+    let at = |p: &Point| place + (p - made.low) * height;
+    for (k, face) in made.faces.iter().enumerate() {
+        let face = face.iter().map(|ring| ring.iter().map(at).collect()).collect();
+        let name = format!("letter {} of {text:?}", k + 1);
+        gear.fittings.marks.push(Mark { name, face, height: up });
+    }
+    let high = at(&made.high);
+    let corners = [(place.x, place.y), (high.x, place.y), (high.x, high.y), (place.x, high.y)];
+    taken.rings.push(corners.map(|(x, y)| Point::new(x, y)).to_vec());
+    Ok(None)
+}
+
+/// Free places on a gear's face as a grid of cells, with sums for rectangles.
+struct Room {
+    low: Point,
+    cell: f64,
+    across: usize,
+    up: usize,
+    /// Cells taken left of and below each corner of the grid.
+    sums: Vec<u32>,
+}
+
+impl Room {
+    fn of(gear: &Gear, taken: &Taken) -> Option<Self> {
+        let inner = geometry::offset(&gear.outline, -policy::LABEL_WALL, policy::OPENING_CHORD);
+        let room = inner
+            .into_iter()
+            .map(|f| f[0].clone())
+            .find(|r| geometry::contains(r, Point::origin()))?;
+        let room = simplify(&room, policy::OPENING_TOLERANCE);
+        let barred = taken.grown(policy::LABEL_WALL);
+        let (low, high) = geometry::bounds(&room);
+        let size = high - low;
+        let cell = size.max() / policy::LABEL_CELLS as f64;
+        let [across, up] = [size.x, size.y].map(|s| (s / cell).ceil() as usize);
+        let mut sums = vec![0; (across + 1) * (up + 1)];
+        for y in 0..up {
+            let mut row = 0;
+            for x in 0..across {
+                let middle = Point::new(x as f64 + 0.5, y as f64 + 0.5) * cell + low.coords;
+                let free = geometry::contains(&room, middle)
+                    && !barred.iter().any(|r| geometry::contains(r, middle));
+                row += u32::from(!free);
+                sums[(y + 1) * (across + 1) + x + 1] = sums[y * (across + 1) + x + 1] + row;
+            }
+        }
+        Some(Self { low, cell, across, up, sums })
+    }
+
+    /// Lower left corner and height for the largest letters that fit, nearest to the axis.
+    fn best(&self, text: &Lettering) -> Option<(Point, f64)> {
+        let size = text.high - text.low;
+        let mut height = policy::LETTERS_MOST;
+        while height >= policy::LETTERS_LEAST {
+            let [w, h] = [size.x, size.y].map(|s| (s * height / self.cell).ceil() as usize);
+            let mut found: Option<(f64, Point)> = None;
+            for y in 0..(self.up + 1).saturating_sub(h) {
+                for x in
+                    (0..(self.across + 1).saturating_sub(w)).filter(|&x| self.is_free(x, y, w, h))
+                {
+                    let corner = Point::new(x as f64, y as f64) * self.cell + self.low.coords;
+                    let away = (corner + 0.5 * size * height).coords.norm();
+                    if found.is_none_or(|(least, _)| away < least) {
+                        found = Some((away, corner));
+                    }
+                }
+            }
+            if let Some((_, corner)) = found {
+                return Some((corner, height));
+            }
+            height *= policy::LETTERS_STEP;
+        }
+        None
+    }
+
+    fn is_free(&self, x: usize, y: usize, w: usize, h: usize) -> bool {
+        let sum = |x: usize, y: usize| self.sums[y * (self.across + 1) + x];
+        sum(x + w, y + h) + sum(x, y) == sum(x + w, y) + sum(x, y + h)
+    }
+}

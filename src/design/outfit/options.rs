@@ -1,0 +1,252 @@
+//! What may be asked for.
+
+use crate::geometry::LetteringError;
+use crate::policy;
+
+/// What the gears carry and stand on. Nothing by default. Lengths in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outfit {
+    /// Play on each side of bores, pins and axle holes; `None` leaves every kind its own.
+    pub fit: Option<f64>,
+    /// A boss on the top face of each gear.
+    pub hub: Option<HubChoice>,
+    /// A circle of screw holes through each gear.
+    pub screws: Option<Screws>,
+    /// Holes that save material.
+    pub lightening: Lightening,
+    /// Lettering on the top faces.
+    pub label: Option<Label>,
+    /// Marks that point at each other on the line of centres in the first pose; `None`: where a pair is to
+    /// be put together by hand, that is with a base or with lettering.
+    pub phase_mark: Option<bool>,
+    /// Bevel of the bottom edges of outline and bore; 0 for none.
+    pub chamfer: f64,
+    /// What the gears stand on.
+    pub base: Base,
+    /// Thickness of its plate.
+    pub base_thickness: f64,
+}
+
+impl Default for Outfit {
+    fn default() -> Self {
+        Self {
+            fit: None,
+            hub: None,
+            screws: None,
+            lightening: Lightening::None,
+            label: None,
+            phase_mark: None,
+            chamfer: 0.0,
+            base: Base::None,
+            base_thickness: policy::BASE_THICKNESS,
+        }
+    }
+}
+
+/// A hub.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HubChoice {
+    /// Its diameter; as much as its bore needs when `None`.
+    pub diameter: Option<f64>,
+    /// Its height above the gear.
+    pub height: f64,
+    /// Diameter of a hole for a set screw.
+    pub set_screw: Option<f64>,
+}
+
+/// A circle of holes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Screws {
+    /// How many.
+    pub count: u32,
+    /// Their diameter.
+    pub diameter: f64,
+    /// Radius of the circle; half way between bore or hub and roots when `None`.
+    pub circle: Option<f64>,
+}
+
+/// Holes that save material.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lightening {
+    /// No holes.
+    #[default]
+    None,
+    /// As many as leave sturdy spokes.
+    Auto,
+    /// This many spokes with a hole between each two.
+    Holes(u32),
+}
+
+/// Lettering.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// What is written.
+    pub text: LabelText,
+    /// Whether it stands out; else it is sunk in.
+    pub raised: bool,
+}
+
+/// What is written on the gears.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LabelText {
+    /// The names of the shapes, where they fit.
+    Names,
+    /// The same on all gears, or an error.
+    Same(String),
+    /// One text for each gear, or an error.
+    Each(Vec<String>),
+}
+
+/// What the gears stand on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Base {
+    /// Nothing.
+    #[default]
+    None,
+    /// A plate with a round pin for each gear.
+    Pins,
+    /// A plate with holes of a Lego beam every 8 mm, for cross axles.
+    Lego,
+}
+
+impl Outfit {
+    /// Whether marks for assembly are to be made.
+    #[must_use]
+    pub fn wants_phase_mark(&self) -> bool {
+        self.phase_mark.unwrap_or(self.base != Base::None || self.label.is_some())
+    }
+
+    /// Passes sizes that can be made on gears of a thickness, mm.
+    ///
+    /// # Errors
+    /// [`OutfitError::BadSize`].
+    pub fn check(&self, thickness: f64) -> Result<(), OutfitError> {
+        let size = |what, value: f64, most: f64| {
+            if value > 0.0 && value <= most {
+                Ok(())
+            } else {
+                let remedy = format!("give a length above 0 and up to {most:.2} mm");
+                Err(OutfitError::BadSize { what, value, remedy })
+            }
+        };
+        let most = policy::LARGEST_LENGTH;
+        if self.chamfer != 0.0 {
+            size("the chamfer", self.chamfer, 0.5 * thickness)?;
+        }
+        if let Some(fit) = self.fit
+            && !(0.0..=policy::LARGEST_PLAY).contains(&fit)
+        {
+            let remedy = format!("give 0 to {} mm", policy::LARGEST_PLAY);
+            return Err(OutfitError::BadSize { what: "the fit", value: fit, remedy });
+        }
+        if let Some(hub) = &self.hub {
+            size("the height of the hub", hub.height, most)?;
+            if let Some(diameter) = hub.diameter {
+                size("the diameter of the hub", diameter, most)?;
+            }
+            if let Some(screw) = hub.set_screw {
+                let room = hub.height - 2.0 * policy::SET_SCREW_WALL;
+                if room <= 0.0 {
+                    let least = screw + 2.0 * policy::SET_SCREW_WALL;
+                    let remedy = format!("a set screw needs --hub-height {least:.1}mm or more");
+                    let what = "the height of the hub";
+                    return Err(OutfitError::BadSize { what, value: hub.height, remedy });
+                }
+                size("the set screw", screw, room)?;
+            }
+        }
+        if let Some(screws) = &self.screws {
+            size("the diameter of the screws", screws.diameter, most)?;
+            if let Some(radius) = screws.circle {
+                size("the radius of the circle of screws", radius, most)?;
+            }
+            let (least, most) = policy::HOLES_RANGE;
+            if !(1..=most).contains(&screws.count) {
+                let _ = least;
+                let remedy = format!("give 1 to {most}");
+                let value = f64::from(screws.count);
+                return Err(OutfitError::BadSize { what: "the number of screws", value, remedy });
+            }
+        }
+        if let Lightening::Holes(count) = self.lightening {
+            let (least, most) = policy::HOLES_RANGE;
+            if !(least..=most).contains(&count) {
+                let (what, remedy) =
+                    ("the number of lightening holes", format!("give {least} to {most}, or auto"));
+                return Err(OutfitError::BadSize { what, value: f64::from(count), remedy });
+            }
+        }
+        if self.base != Base::None {
+            size("the thickness of the base", self.base_thickness, most)?;
+        }
+        Ok(())
+    }
+}
+
+/// Why a pair cannot be fitted out as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OutfitError {
+    /// A size or number out of range.
+    #[error("{what} is {value}; {remedy}")]
+    BadSize {
+        /// What it measures.
+        what: &'static str,
+        /// What was asked.
+        value: f64,
+        /// What would be accepted.
+        remedy: String,
+    },
+    /// A part of a gear that has no room.
+    #[error("the {gear} has no room for {what} of {asked:.2} mm; {}", up_to(*.largest))]
+    NoRoom {
+        /// Name of the gear.
+        gear: String,
+        /// What does not fit.
+        what: String,
+        /// Its size, mm.
+        asked: f64,
+        /// The largest that fits, mm; zero when none does.
+        largest: f64,
+    },
+    /// A text that has no room.
+    #[error(
+        "the {gear} has no room for the text {text:?} in letters {least} mm high; shorten it, or leave lightening, hub or screws out"
+    )]
+    NoRoomForText {
+        /// Name of the gear.
+        gear: String,
+        /// The text.
+        text: String,
+        /// Height of the smallest letters that can be printed, mm.
+        least: f64,
+    },
+    /// A text that cannot be written.
+    #[error(transparent)]
+    Lettering(#[from] LetteringError),
+    /// A set screw or a pin without a bore.
+    #[error("the {gear} has no bore for {what}; give one with --bore, or leave {what} out")]
+    NoBore {
+        /// Name of the gear.
+        gear: String,
+        /// What needs it.
+        what: &'static str,
+    },
+    /// Axes that do not meet the holes of a Lego plate.
+    #[error(
+        "the axes are {distance:.2} mm apart and a Lego plate has a hole every 8 mm; give --center-distance lego:{nearest}"
+    )]
+    OffTheGrid {
+        /// Distance between two axes, mm.
+        distance: f64,
+        /// Studs of 8 mm that come nearest.
+        nearest: u32,
+    },
+}
+
+fn up_to(largest: f64) -> String {
+    if largest > 0.0 {
+        format!("the largest that fits is {:.2} mm", (100.0 * largest).floor() / 100.0)
+    } else {
+        "leave it out or make the gears larger".to_owned()
+    }
+}
