@@ -927,3 +927,6 @@ pub const LEGO_SHOULDER: f64 = 3.6;
 pub const SCREW_DIAMETER: f64 = 3.2;
 /// sRGB of base plates in files.
 pub const FIXTURE_COLOR: [u8; 3] = [176, 176, 170];
+/// How far beyond a tooth's half thickness a rim is rounded, in modules: scallops from root to root then
+/// stay below a fiftieth of a module.
+pub const LIGHTENING_SMOOTHING: f64 = 2.5;

@@ -123,6 +123,9 @@ pub fn design(
 ) -> Result<Design, DesignError> {
     check(options)?;
     options.outfit.check(options.thickness)?;
+    if let Scale::CenterDistance(distance) = options.scale {
+        options.outfit.check_distance(distance)?;
+    }
     let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
     let mut steps = Vec::new();
     let mut settings = Settings::first(&fit, options)?;
