@@ -10,8 +10,8 @@ const MODULE: f64 = 2.5;
 fn pair(bore: Bore) -> Assembly {
     let gear = |name: &str, phase: f64| {
         let ring = |wave: f64| -> Vec<Point> {
-            (0..1600)
-                .map(|i| TAU * f64::from(i) / 1600.0)
+            (0..960)
+                .map(|i| TAU * f64::from(i) / 960.0)
                 .map(|a| {
                     geometry::rotate(Point::new(40.0 + wave * (TEETH * a + phase).cos(), 0.0), a)
                 })
