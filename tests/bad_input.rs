@@ -247,6 +247,7 @@ fn outfits_that_cannot_be_made() {
         (vec!["--bore", "oval:4"], vec!["oval:4", "hex:6"]),
         (vec!["--bore", "d:5x1x1"], vec!["d:5x4.5"]),
         (vec!["--bore", "keyway:3"], vec!["DIN 6885", "keyway:3x2x1"]),
+        (vec!["--bore", "d:5x2"], vec!["across the flat", "half the diameter"]),
         (vec!["--fit", "snug"], vec!["tight, slide, loose"]),
         (vec!["--fit", "9mm"], vec!["the fit", "give 0 to"]),
         (vec!["--chamfer", "5mm"], vec!["the chamfer", "up to 4.00 mm"]),

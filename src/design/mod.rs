@@ -123,6 +123,9 @@ pub fn design(
 ) -> Result<Design, DesignError> {
     check(options)?;
     options.outfit.check(options.thickness)?;
+    if let BoreChoice::Exactly(bore) = options.bore {
+        bore.polygon(policy::BORE_CHORD_TOLERANCE)?;
+    }
     if let Scale::CenterDistance(distance) = options.scale {
         options.outfit.check_distance(distance)?;
     }

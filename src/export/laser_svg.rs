@@ -276,19 +276,11 @@ mod tests {
         let layer = |name: &str| plain.split(&format!("id=\"{name}\"")).nth(1).unwrap().to_owned();
         assert!(layer("cut-bores").split("cut-outlines").next().unwrap().contains("r=\"3.0"));
         assert!(layer("engrave").split("cut-bores").next().unwrap().contains("M -12.0"));
-        let error = LaserSvg { kerf: 4.9, ..LaserSvg::default() };
-        assemble_without_bores(&mut assembly);
-        assert!(error.sheet(&assembly).is_ok());
-        let error = LaserSvg { kerf: policy::LARGEST_KERF, ..LaserSvg::default() };
-        assembly.gears[0].gear.fittings.openings[0].ring.iter_mut().for_each(|p| {
-            p.x = 15.0 + 0.5 * (p.x - 15.0);
-            p.y *= 0.5;
-        });
-        assert!(error.sheet(&assembly).unwrap_err().contains("screw 1"));
-    }
-
-    fn assemble_without_bores(assembly: &mut Assembly) {
-        assembly.gears.iter_mut().for_each(|g| g.gear.bore = None);
+        let gear = &mut assembly.gears[0].gear;
+        gear.bore = None;
+        gear.fittings.openings[0].ring = crate::solid::circle(1.5, 0.005);
+        let wide = LaserSvg { kerf: 4.0, ..LaserSvg::default() };
+        assert!(wide.work(gear).err().is_some_and(|said| said.contains("screw 1")));
     }
 
     #[test]
