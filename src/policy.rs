@@ -1050,3 +1050,9 @@ pub const LEGO_SHOULDER: f64 = 3.6;
 pub const SCREW_DIAMETER: f64 = 3.2;
 /// sRGB of base plates in files.
 pub const FIXTURE_COLOR: [u8; 3] = [176, 176, 170];
+/// How far beyond a tooth's half thickness a rim is rounded, in modules: scallops from root to root then
+/// stay below a fiftieth of a module.
+pub const LIGHTENING_SMOOTHING: f64 = 2.5;
+/// How far the outermost point of a gear may stray between two keys of an animation, mm: a twentieth of the gap
+/// that the default clearance leaves, so that no pose in between overlaps.
+pub const ANIMATION_ARC_ERROR: f64 = 0.01;

@@ -241,6 +241,44 @@ fn sizes_that_are_zero_negative_or_no_lengths() {
 }
 
 #[test]
+fn outfits_that_cannot_be_made() {
+    let bench = Bench::new();
+    for (options, words) in [
+        (vec!["--bore", "oval:4"], vec!["oval:4", "hex:6"]),
+        (vec!["--bore", "d:5x1x1"], vec!["d:5x4.5"]),
+        (vec!["--bore", "keyway:3"], vec!["DIN 6885", "keyway:3x2x1"]),
+        (vec!["--bore", "d:5x2"], vec!["across the flat", "half the diameter"]),
+        (vec!["--fit", "snug"], vec!["tight, slide, loose"]),
+        (vec!["--fit", "9mm"], vec!["the fit", "give 0 to"]),
+        (vec!["--chamfer", "5mm"], vec!["the chamfer", "up to 4.00 mm"]),
+        (vec!["--chamfer", "-1mm"], vec!["--chamfer", "0 or more"]),
+        (vec!["--hub-height", "0"], vec!["--hub-height"]),
+        (vec!["--hub-height", "2mm", "--set-screw", "2.5mm"], vec!["set screw", "0.40 mm"]),
+        (vec!["--screws", "0"], vec!["number of screws"]),
+        (vec!["--lightening", "1"], vec!["lightening holes", "auto"]),
+        (vec!["--lightening", "many"], vec!["auto"]),
+        (vec!["--emboss=\u{7}"], vec!["no font", "\\u{7}"]),
+        (vec!["--emboss=  "], vec!["no letters"]),
+        (vec!["--base", "table"], vec!["pins"]),
+        (vec!["--base", "lego", "--center-distance", "83mm"], vec!["lego:10"]),
+        (vec!["--base", "pins", "--base-thickness", "0"], vec!["--base-thickness"]),
+    ] {
+        let arguments: Vec<&str> = ["heart", "dove"].into_iter().chain(options).collect();
+        bench.refuses_options(&arguments, &words);
+    }
+    // Known only once the gears are there.
+    let quick = ["heart", "dove", "--search", "paper", "--no-simulate", "--teeth", "24"];
+    for (options, words) in [
+        (vec!["--center-distance", "12mm", "--bore", "lego"], vec!["the bore leaves", "bore"]),
+        (vec!["--bore", "hex:70"], vec!["the largest hex bore that fits"]),
+        (vec!["--hub-diameter", "90mm"], vec!["no room for a hub", "the largest that fits"]),
+    ] {
+        let arguments: Vec<&str> = quick.into_iter().chain(options).collect();
+        bench.refuses_options(&arguments, &words);
+    }
+}
+
+#[test]
 fn ratios_that_are_no_ratios() {
     let bench = Bench::new();
     for ratio in ["0", "7/3", "-1", "1/0", "2.5", "nan", "", "1000000"] {

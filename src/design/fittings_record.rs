@@ -158,3 +158,52 @@ impl FixtureRecord {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solid::circle;
+
+    fn clockwise(radius: f64) -> Vec<Point> {
+        circle(radius, 0.1).into_iter().rev().collect()
+    }
+
+    #[test]
+    fn what_is_written_reads_back_the_same() {
+        let fittings = Fittings {
+            openings: vec![Opening { name: "screw 1".into(), ring: circle(1.6, 0.1) }],
+            hub: Some(Hub { radius: 7.0, height: 5.0, set_screw: Some(2.5) }),
+            marks: vec![Mark {
+                name: "O".into(),
+                face: vec![circle(3.0, 0.1), clockwise(2.0)],
+                height: -0.4,
+            }],
+            chamfer: 0.3,
+        };
+        let text = serde_json::to_string(&FittingsRecord::new(&fittings)).unwrap();
+        let read: FittingsRecord = serde_json::from_str(&text).unwrap();
+        assert_eq!(read.read("driver"), Ok(fittings));
+        assert!(FittingsRecord::new(&Fittings::default()).is_none());
+        let bare: FittingsRecord = serde_json::from_str("{}").unwrap();
+        assert_eq!(bare.read("driver"), Ok(Fittings::default()));
+    }
+
+    #[test]
+    fn damage_is_named() {
+        let mark = Mark { name: "O".into(), face: vec![clockwise(3.0)], height: 0.4 };
+        let fittings = Fittings { marks: vec![mark], ..Fittings::default() };
+        let error = FittingsRecord::new(&fittings).unwrap().read("driver").unwrap_err();
+        assert!(error.contains("O of its driver"), "{error}");
+        let mut base = Fixture {
+            name: "base".into(),
+            outline: circle(20.0, 0.1),
+            holes: vec![circle(2.0, 0.1)],
+            thickness: 4.0,
+            posts: vec![Post { ring: circle(4.0, 0.1), hole: Some(0), from: 4.0, to: 5.0 }],
+            z: -5.0,
+        };
+        assert_eq!(FixtureRecord::new(&base).read().as_ref(), Ok(&base));
+        base.name = "../base".into();
+        assert!(FixtureRecord::new(&base).read().unwrap_err().contains("../base"));
+    }
+}

@@ -132,6 +132,12 @@ pub fn design(
 ) -> Result<Design, DesignError> {
     check(options)?;
     options.outfit.check(options.thickness)?;
+    if let BoreChoice::Exactly(bore) = options.bore {
+        bore.polygon(policy::BORE_CHORD_TOLERANCE)?;
+    }
+    if let Scale::CenterDistance(distance) = options.scale {
+        options.outfit.check_distance(distance)?;
+    }
     let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
     made_from(&Source::fitted([driver, follower], fit, options.fit.symmetric), options)
 }

@@ -336,7 +336,7 @@ fn about_z(angle: f64) -> [f32; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::wavy_pair;
+    use super::super::tests::{base, wavy_pair};
     use super::*;
 
     /// The rows of a float accessor.
@@ -405,6 +405,30 @@ mod tests {
                 assert!(off.to_degrees().abs() < 0.0105, "{} at {now}", off.to_degrees());
             }
         }
+    }
+
+    #[test]
+    fn a_base_stands_still_below_the_gears() {
+        let (mut assembly, mut meshes) = wavy_pair();
+        assembly.fixtures.push(base());
+        meshes.push(crate::solid::fixture_solid(&assembly.fixtures[0]).unwrap());
+        let parts = Parts { assembly: &assembly, meshes: &meshes };
+        let (document, buffers, _) =
+            gltf::import_slice(Glb::default().bytes(parts).unwrap()).unwrap();
+        let node = document.nodes().find(|n| n.name() == Some("base")).unwrap();
+        assert!(
+            document
+                .animations()
+                .next()
+                .unwrap()
+                .channels()
+                .all(|c| c.target().node().index() != node.index())
+        );
+        let height = node.transform().decomposed().0[2];
+        let primitive = node.mesh().unwrap().primitives().next().unwrap();
+        let positions = rows(&primitive.get(&gltf::Semantic::Positions).unwrap(), &buffers);
+        let top = positions.iter().map(|p| p[2] + height).fold(f32::MIN, f32::max);
+        assert!((top + 0.001).abs() < 1e-7, "{top}");
     }
 
     #[test]

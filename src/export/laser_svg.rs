@@ -11,8 +11,8 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// `laser.svg`: the gears side by side, never overlapping, with the pitch curves to engrave (blue), then the
-/// bores and last the outlines to cut (red), each in its own layer.
+/// `laser.svg`: the gears side by side, never overlapping, with the pitch curves and marks to engrave (blue), then the
+/// holes and last the outlines to cut (red), each in its own layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaserSvg {
     /// Width that the beam burns away, mm: outlines move outward and bores inward by half of it.
@@ -46,6 +46,9 @@ impl Export for LaserSvg {
 struct Work {
     outline: Contour,
     bore: Option<Contour>,
+    openings: Vec<Contour>,
+    /// What is sunk into or raised on the face, engraved as SVG.
+    marks: String,
     pitch_curve: Contour,
     low: Point,
     high: Point,
@@ -98,9 +101,10 @@ impl LaserSvg {
             svg.push_str("</g>\n");
         };
         layer("engrave", "#0000ff", &|w| {
-            drawn(&w.pitch_curve) + &if w.bore.is_none() { cross() } else { String::new() }
+            let axis = if w.bore.is_none() { cross() } else { String::new() };
+            drawn(&w.pitch_curve) + &w.marks + &axis
         });
-        layer("cut-bores", "#ff0000", &|w| w.bore.as_ref().map_or(String::new(), drawn));
+        layer("cut-bores", "#ff0000", &|w| w.openings.iter().chain(&w.bore).map(drawn).collect());
         layer("cut-outlines", "#ff0000", &|w| drawn(&w.outline));
         svg.push_str("</svg>\n");
         Ok(svg)
@@ -117,27 +121,30 @@ impl LaserSvg {
         let half = 0.5 * self.kerf;
         let outline = moved(&gear.outline, half)
             .ok_or_else(|| format!("half a kerf closes gaps of the {}", gear.name))?;
-        let bore = match &gear.bore {
-            None => None,
-            Some(bore) => {
-                let narrow = || format!("the kerf closes the bore of the {}", gear.name);
-                Some(match contour(bore, self.tolerance, true, false)? {
-                    Contour::Round { radius, .. } if radius <= half => return Err(narrow()),
-                    Contour::Round { center, radius } => {
-                        Contour::Round { center, radius: radius - half }
-                    }
-                    path @ Contour::Path(_) if half == 0.0 => path,
-                    Contour::Path(_) => {
-                        let smaller = moved(bore, -half).ok_or_else(narrow)?;
-                        contour(&smaller, self.tolerance, true, false)?
-                    }
-                })
-            }
+        let hole = |ring: &[Point], name: &str| -> Result<Contour, String> {
+            let narrow = || format!("the kerf closes the {name} of the {}", gear.name);
+            Ok(match contour(ring, self.tolerance, true, false)? {
+                Contour::Round { radius, .. } if radius <= half => return Err(narrow()),
+                Contour::Round { center, radius } => {
+                    Contour::Round { center, radius: radius - half }
+                }
+                path @ Contour::Path(_) if half == 0.0 => path,
+                Contour::Path(_) => {
+                    let smaller = moved(ring, -half).ok_or_else(narrow)?;
+                    contour(&smaller, self.tolerance, true, false)?
+                }
+            })
         };
+        let bore = gear.bore.as_ref().map(|ring| hole(ring, "bore")).transpose()?;
+        let openings = &gear.fittings.openings;
+        let openings = openings.iter().map(|o| hole(&o.ring, &o.name)).collect::<Result<_, _>>()?;
+        let marks = gear.fittings.marks.iter().flat_map(|m| &m.face).map(|r| polyline(r)).collect();
         let (low, high) = geometry::bounds(&outline);
         Ok(Work {
             outline: contour(&outline, self.tolerance, false, false)?,
             bore,
+            openings,
+            marks,
             pitch_curve: contour(
                 &gear.pitch_curve,
                 policy::DRAWN_CURVE_TOLERANCE.max(self.tolerance),
@@ -160,6 +167,15 @@ fn moved(ring: &[Point], distance: f64) -> Option<Vec<Point>> {
         (Some(mut face), true) if face.len() == 1 => face.pop(),
         _ => None,
     }
+}
+
+/// A ring as an SVG element, y turned downwards.
+fn polyline(ring: &[Point]) -> String {
+    let mut d = String::new();
+    for (i, p) in ring.iter().enumerate() {
+        let _ = write!(d, "{}{:.4} {:.4}", if i == 0 { "M " } else { " L " }, p.x, 0.0 - p.y);
+    }
+    format!("<path d=\"{d} Z\"/>")
 }
 
 /// Marks the axis of a gear without a bore.
@@ -243,6 +259,28 @@ mod tests {
         assert!((kerfed.0 - plain.0 - 0.1 * perimeter).abs() < 0.5, "{plain:?} {kerfed:?}");
         assert!((plain.1 - std::f64::consts::PI * 6.25).abs() < 1e-9);
         assert!((kerfed.1 - std::f64::consts::PI * 2.4 * 2.4).abs() < 1e-9);
+    }
+
+    #[test]
+    fn openings_are_cut_before_outlines_and_marks_engraved() {
+        let (mut assembly, _) = wavy_pair();
+        let ring = |x: f64| -> Vec<Point> {
+            crate::solid::circle(3.0, 0.005).iter().map(|p| Point::new(p.x + x, p.y)).collect()
+        };
+        let fittings = &mut assembly.gears[0].gear.fittings;
+        let name = "screw 1".to_owned();
+        fittings.openings.push(crate::assembly::Opening { name: name.clone(), ring: ring(15.0) });
+        let face = vec![ring(-15.0)];
+        fittings.marks.push(crate::assembly::Mark { name, face, height: -0.4 });
+        let plain = LaserSvg::default().sheet(&assembly).unwrap();
+        let layer = |name: &str| plain.split(&format!("id=\"{name}\"")).nth(1).unwrap().to_owned();
+        assert!(layer("cut-bores").split("cut-outlines").next().unwrap().contains("r=\"3.0"));
+        assert!(layer("engrave").split("cut-bores").next().unwrap().contains("M -12.0"));
+        let gear = &mut assembly.gears[0].gear;
+        gear.bore = None;
+        gear.fittings.openings[0].ring = crate::solid::circle(1.5, 0.005);
+        let wide = LaserSvg { kerf: 4.0, ..LaserSvg::default() };
+        assert!(wide.work(gear).err().is_some_and(|said| said.contains("screw 1")));
     }
 
     #[test]

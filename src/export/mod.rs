@@ -116,6 +116,43 @@ mod tests {
         (assembly, meshes)
     }
 
+    /// A plain plate, its top 1 mm below the gears.
+    pub(super) fn base() -> crate::assembly::Fixture {
+        let outline = [(-10.0, -10.0), (90.0, -10.0), (90.0, 10.0), (-10.0, 10.0)];
+        crate::assembly::Fixture {
+            name: "base".to_owned(),
+            outline: outline.map(|(x, y)| Point::new(x, y)).to_vec(),
+            holes: Vec::new(),
+            thickness: 4.0,
+            posts: Vec::new(),
+            z: -5.0,
+        }
+    }
+
+    #[test]
+    fn fixtures_are_in_the_files_of_solids() {
+        let (mut assembly, _) = wavy_pair();
+        assembly.fixtures.push(base());
+        let meshes = assembly_solids(&assembly).unwrap();
+        assert!((meshes[2].volume() - 8000.0).abs() < 1e-3);
+        let folder = tempfile::tempdir().unwrap();
+        let parts = Parts { assembly: &assembly, meshes: &meshes };
+        let stl = Stl.write(parts, folder.path()).unwrap();
+        assert_eq!(stl[2].file_name().unwrap(), "base.stl");
+        assert_eq!(stl[2].metadata().unwrap().len(), 84 + 50 * 12);
+        let obj = Obj.write(parts, folder.path()).unwrap().remove(0);
+        let text = std::fs::read_to_string(obj).unwrap();
+        assert_eq!(text.lines().filter(|l| l.starts_with("o ")).count(), 3);
+        let below = text.split("o base").nth(1).unwrap().lines().filter(|l| l.starts_with("v "));
+        let heights: Vec<f64> =
+            below.map(|l| l.rsplit(' ').next().unwrap().parse().unwrap()).collect();
+        assert!(heights.len() == 8 && heights.iter().all(|z| [-5.0, -1.0].contains(z)));
+        let places = threemf::tests::places(parts);
+        // Lifted so that the plate stands on zero.
+        assert_eq!(places.iter().map(|p| p[11]).collect::<Vec<_>>(), [5.0, 5.0, 0.0]);
+        assert!((places[2][9] - places[0][9]).abs() < 1e-6);
+    }
+
     #[test]
     fn every_format_writes_the_files_it_names() {
         let (assembly, meshes) = wavy_pair();

@@ -154,7 +154,7 @@ fn object(xml: &mut String, number: usize, name: &str, mesh: &Mesh) {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::super::tests::wavy_pair;
     use super::*;
     use crate::solid::{Expected, check};
@@ -162,6 +162,15 @@ mod tests {
 
     fn numbers(line: &str) -> Vec<f64> {
         line.split('"').skip(1).step_by(2).map(|n| n.parse().unwrap()).collect()
+    }
+
+    /// The transforms of all items.
+    pub(in super::super) fn places(parts: Parts<'_>) -> Vec<Vec<f64>> {
+        model(parts)
+            .lines()
+            .filter_map(|l| l.split_once("transform=\"").map(|(_, t)| t))
+            .map(|t| t.trim_end_matches("\"/>").split(' ').map(|n| n.parse().unwrap()).collect())
+            .collect()
     }
 
     #[test]

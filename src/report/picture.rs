@@ -47,6 +47,7 @@ struct Posed<'a> {
     placed: &'a PlacedGear,
     outline: Vec<Point>,
     bore: Vec<Point>,
+    openings: Vec<Vec<Point>>,
     pitch_curve: Vec<Point>,
     input: Vec<Point>,
     axis: Point,
@@ -65,6 +66,7 @@ impl<'a> Posed<'a> {
             placed,
             outline: place(&gear.outline),
             bore: place(gear.bore.as_deref().unwrap_or_default()),
+            openings: gear.fittings.openings.iter().map(|o| place(&o.ring)).collect(),
             pitch_curve: place(&gear.pitch_curve),
             input: place(&gear.input),
             axis: flip(placed.axis),
@@ -158,7 +160,9 @@ impl Sheet {
             self.u(0.15)
         );
         for (gear, (fill, edge)) in gears.iter().zip(GEAR_STYLES.iter().cycle()) {
-            let (outline, bore) = (self.grid.ring(&gear.outline), self.grid.ring(&gear.bore));
+            let outline = self.grid.ring(&gear.outline);
+            let holes = gear.openings.iter().chain([&gear.bore]);
+            let bore: String = holes.map(|ring| self.grid.ring(ring)).collect();
             let _ = writeln!(
                 out,
                 "<path fill=\"{fill}\" stroke=\"{edge}\" d=\"{outline}{bore}\"><title>{}</title></path>",

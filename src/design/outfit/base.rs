@@ -69,12 +69,8 @@ fn lego(assembly: &Assembly, outfit: &Outfit) -> Result<Fixture, OutfitError> {
         assembly.gears.iter().map(|g| g.axis - first).collect()
     };
     for axis in &axes {
-        let off = |v: f64| (v - stud * (v / stud).round()).abs();
-        if off(axis.x) > policy::LEGO_GRID_ERROR || off(axis.y) > policy::LEGO_GRID_ERROR {
-            let distance = axis.norm();
-            let nearest = (distance / stud).round().max(1.0) as u32;
-            return Err(OutfitError::OffTheGrid { distance, nearest });
-        }
+        outfit.check_distance(axis.x.abs())?;
+        outfit.check_distance(axis.y.abs())?;
     }
     let (thickness, gap) = (outfit.base_thickness, policy::SHOULDER_HEIGHT);
     let play = outfit.fit.unwrap_or(policy::LEGO_AXLE_PLAY);

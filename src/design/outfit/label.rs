@@ -75,13 +75,16 @@ impl Room {
         let [across, up] = [size.x, size.y].map(|s| (s / cell).ceil() as usize);
         let mut sums = vec![0; (across + 1) * (up + 1)];
         for y in 0..up {
-            let mut row = 0;
+            // Middles of a row's cells: inside the room and outside of all that is barred.
+            let height = low.y + (y as f64 + 0.5) * cell;
+            let inside = row(&room, height, low.x, cell, across);
+            let barred: Vec<Vec<bool>> =
+                barred.iter().map(|r| row(r, height, low.x, cell, across)).collect();
+            let mut taken = 0;
             for x in 0..across {
-                let middle = Point::new(x as f64 + 0.5, y as f64 + 0.5) * cell + low.coords;
-                let free = geometry::contains(&room, middle)
-                    && !barred.iter().any(|r| geometry::contains(r, middle));
-                row += u32::from(!free);
-                sums[(y + 1) * (across + 1) + x + 1] = sums[y * (across + 1) + x + 1] + row;
+                let free = inside[x] && !barred.iter().any(|r| r[x]);
+                taken += u32::from(!free);
+                sums[(y + 1) * (across + 1) + x + 1] = sums[y * (across + 1) + x + 1] + taken;
             }
         }
         Some(Self { low, cell, across, up, sums })
@@ -117,4 +120,18 @@ impl Room {
         let sum = |x: usize, y: usize| self.sums[y * (self.across + 1) + x];
         sum(x + w, y + h) + sum(x, y) == sum(x + w, y) + sum(x, y + h)
     }
+}
+
+/// Which middles of `count` cells, `cell` wide from x = `start` on, lie inside a ring at height `y`.
+fn row(ring: &[Point], y: f64, start: f64, cell: f64, count: usize) -> Vec<bool> {
+    let ends = ring.iter().zip(ring.iter().cycle().skip(1));
+    let mut crossings: Vec<f64> = ends
+        .filter(|(a, b)| (a.y <= y) != (b.y <= y))
+        .map(|(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y))
+        .collect();
+    crossings.sort_by(f64::total_cmp);
+    (0..count)
+        .map(|i| start + (i as f64 + 0.5) * cell)
+        .map(|x| crossings.partition_point(|c| *c < x) % 2 == 1)
+        .collect()
 }

@@ -23,9 +23,11 @@ pub(super) fn add(
     }
     let rim = policy::LIGHTENING_RIM.max(policy::LIGHTENING_RIM_MODULES * module);
     let wall = policy::LIGHTENING_WALL;
-    // Taking off half a tooth's thickness more than the rim, and giving it back, leaves no teeth.
+    // Taking off half a tooth's thickness more than the rim, and giving it back, leaves no teeth; a
+    // little more leaves no waves from one root to the next either.
     let tooth = policy::TOOTH_HALF_THICKNESS * module;
-    let Some(core) = core(&gear.outline, rim, tooth) else { return false };
+    let smooth = policy::LIGHTENING_SMOOTHING * module;
+    let Some(core) = core(&gear.outline, rim, tooth + smooth) else { return false };
     let count = match choice {
         Lightening::Holes(count) => count,
         _ => {

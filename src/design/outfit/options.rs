@@ -1,6 +1,6 @@
 //! What may be asked for.
 
-use crate::geometry::LetteringError;
+use crate::geometry::{LetteringError, lettering};
 use crate::policy;
 
 /// What the gears carry and stand on. Nothing by default. Lengths in mm.
@@ -110,6 +110,19 @@ pub enum Base {
 }
 
 impl Outfit {
+    /// Passes a distance (mm) between axes that what the gears stand on can bear.
+    ///
+    /// # Errors
+    /// [`OutfitError::OffTheGrid`].
+    pub fn check_distance(&self, distance: f64) -> Result<(), OutfitError> {
+        let studs = (distance / policy::LEGO_STUD).round();
+        let off = (distance - policy::LEGO_STUD * studs).abs();
+        if self.base == Base::Lego && off > policy::LEGO_GRID_ERROR {
+            return Err(OutfitError::OffTheGrid { distance, nearest: studs.max(1.0) as u32 });
+        }
+        Ok(())
+    }
+
     /// Whether marks for assembly are to be made.
     #[must_use]
     pub fn wants_phase_mark(&self) -> bool {
@@ -119,7 +132,7 @@ impl Outfit {
     /// Passes sizes that can be made on gears of a thickness, mm.
     ///
     /// # Errors
-    /// [`OutfitError::BadSize`].
+    /// [`OutfitError::BadSize`], [`OutfitError::Lettering`].
     pub fn check(&self, thickness: f64) -> Result<(), OutfitError> {
         let size = |what, value: f64, most: f64| {
             if value > 0.0 && value <= most {
@@ -160,9 +173,8 @@ impl Outfit {
             if let Some(radius) = screws.circle {
                 size("the radius of the circle of screws", radius, most)?;
             }
-            let (least, most) = policy::HOLES_RANGE;
+            let (_, most) = policy::HOLES_RANGE;
             if !(1..=most).contains(&screws.count) {
-                let _ = least;
                 let remedy = format!("give 1 to {most}");
                 let value = f64::from(screws.count);
                 return Err(OutfitError::BadSize { what: "the number of screws", value, remedy });
@@ -174,6 +186,16 @@ impl Outfit {
                 let (what, remedy) =
                     ("the number of lightening holes", format!("give {least} to {most}, or auto"));
                 return Err(OutfitError::BadSize { what, value: f64::from(count), remedy });
+            }
+        }
+        if let Some(label) = &self.label {
+            let texts: &[String] = match &label.text {
+                LabelText::Names => &[],
+                LabelText::Same(text) => std::slice::from_ref(text),
+                LabelText::Each(texts) => texts,
+            };
+            for text in texts {
+                lettering(text, 1.0)?;
             }
         }
         if self.base != Base::None {

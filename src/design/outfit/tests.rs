@@ -1,1 +1,259 @@
+use super::*;
+use crate::assembly::{Fittings, Fixture};
+use crate::solid::{Bore, assembly_solids};
+use std::f64::consts::{PI, TAU};
 
+const TEETH: f64 = 32.0;
+const MODULE: f64 = 2.5;
+
+/// Two wavy gears of pitch radius 40 beside each other.
+fn pair(bore: Bore) -> Assembly {
+    let gear = |name: &str, phase: f64| {
+        let ring = |wave: f64| -> Vec<Point> {
+            (0..960)
+                .map(|i| TAU * f64::from(i) / 960.0)
+                .map(|a| {
+                    geometry::rotate(Point::new(40.0 + wave * (TEETH * a + phase).cos(), 0.0), a)
+                })
+                .collect()
+        };
+        Gear {
+            name: name.to_owned(),
+            outline: ring(2.0),
+            bore: bore.polygon(policy::BORE_CHORD_TOLERANCE).unwrap(),
+            pitch_curve: ring(0.0),
+            input: Vec::new(),
+            teeth: TEETH as u32,
+            fittings: Fittings::default(),
+        }
+    };
+    let placed = |gear, x, angle: Vec<f64>| PlacedGear { gear, axis: Point::new(x, 0.0), angle };
+    Assembly {
+        gears: vec![
+            placed(gear("driver", 0.0), 0.0, vec![0.0, TAU]),
+            placed(gear("follower", PI), 80.0, vec![0.0, -TAU]),
+        ],
+        driver_angle: vec![0.0, TAU],
+        thickness: 8.0,
+        fixtures: Vec::new(),
+    }
+}
+
+fn names() -> Vec<String> {
+    ["heart", "dove"].map(str::to_owned).to_vec()
+}
+
+fn fitted(outfit: &Outfit) -> Result<(Assembly, Vec<String>), OutfitError> {
+    let mut assembly = pair(Bore::Round { diameter: 5.0 });
+    let warnings = fit_out(&mut assembly, outfit, &names(), MODULE)?;
+    Ok((assembly, warnings))
+}
+
+/// Least distance between the corners of two finely drawn rings.
+fn gap(a: &[Point], b: &[Point]) -> f64 {
+    let to = |p: &Point| b.iter().map(|q| (p - q).norm()).fold(f64::INFINITY, f64::min);
+    a.iter().map(to).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn nothing_is_added_that_was_not_asked_for() {
+    let (assembly, warnings) = fitted(&Outfit::default()).unwrap();
+    assert_eq!((assembly, warnings), (pair(Bore::Round { diameter: 5.0 }), Vec::new()));
+}
+
+#[test]
+fn phase_marks_point_at_each_other_on_the_line_of_centres() {
+    let outfit = Outfit { phase_mark: Some(true), ..Outfit::default() };
+    let (assembly, _) = fitted(&outfit).unwrap();
+    let tips: Vec<f64> = assembly
+        .gears
+        .iter()
+        .map(|g| {
+            let ring = &g.gear.fittings.marks[0].face[0];
+            assert!(geometry::signed_area(ring) > 0.0);
+            assert!(gap(ring, &g.gear.outline) >= policy::MARK_WALL - 0.05);
+            assert!(ring[0].y.abs() < 1e-12 && (ring[1].y + ring[2].y).abs() < 1e-12);
+            ring[0].x + g.axis.x
+        })
+        .collect();
+    assert!(tips[0] < tips[1] && tips[1] - tips[0] < 8.0, "{tips:?}");
+    assert!(tips[0] > 36.0 && tips[1] < 44.0, "{tips:?}");
+    assert!(assembly_solids(&assembly).is_ok());
+}
+
+#[test]
+fn lightening_holes_keep_rim_hub_and_spokes() {
+    for choice in [Lightening::Auto, Lightening::Holes(5)] {
+        let (assembly, _) = fitted(&Outfit { lightening: choice, ..Outfit::default() }).unwrap();
+        let gear = &assembly.gears[0].gear;
+        let openings = &gear.fittings.openings;
+        let chosen = policy::LIGHTENING_CHOICE;
+        match choice {
+            Lightening::Auto => assert!((chosen.0..=chosen.1).contains(&(openings.len() as u32))),
+            _ => assert_eq!(openings.len(), 5),
+        }
+        let slack = 2.0 * policy::OPENING_TOLERANCE;
+        for (i, opening) in openings.iter().enumerate() {
+            assert!(
+                gap(&opening.ring, &gear.outline) > policy::LIGHTENING_RIM_MODULES * MODULE - slack
+            );
+            let wall = gap(&opening.ring, gear.bore.as_ref().unwrap());
+            assert!(wall > policy::LIGHTENING_WALL - slack, "{wall}");
+            for other in &openings[..i] {
+                assert!(gap(&opening.ring, &other.ring) > policy::LIGHTENING_WALL - slack);
+            }
+        }
+        let saved: f64 = openings.iter().map(|o| geometry::area(&o.ring)).sum();
+        let share = saved / geometry::area(&gear.outline);
+        assert!((0.2..0.6).contains(&share), "{share}");
+        // The rim is smooth: no hole's far side waves with the teeth.
+        let far: Vec<f64> = openings
+            .iter()
+            .map(|o| o.ring.iter().map(|p| p.coords.norm()).fold(0.0, f64::max))
+            .collect();
+        let limit = 38.0 - policy::LIGHTENING_RIM_MODULES * MODULE + 0.3;
+        assert!(far.iter().all(|r| *r < limit), "{far:?} {limit}");
+        assert!(assembly_solids(&assembly).is_ok());
+    }
+}
+
+#[test]
+fn letters_stand_inside_and_leave_the_rest_alone() {
+    let label = |text, raised| Some(Label { text, raised });
+    for (text, raised, letters) in [
+        (LabelText::Names, true, [5, 4]),
+        (LabelText::Each(vec!["A".into(), "No".into()]), false, [1, 2]),
+        (LabelText::Same("Ω+é".into()), true, [4, 4]),
+    ] {
+        let outfit = Outfit { label: label(text, raised), ..Outfit::default() };
+        let (assembly, warnings) = fitted(&outfit).unwrap();
+        assert!(warnings.is_empty(), "{warnings:?}");
+        for (placed, count) in assembly.gears.iter().zip(letters) {
+            let marks: Vec<_> =
+                placed.gear.fittings.marks.iter().filter(|m| m.name != "phase mark").collect();
+            assert_eq!(marks.len(), count);
+            assert!(marks.iter().all(|m| (m.height > 0.0) == raised));
+        }
+        assert!(assembly_solids(&assembly).is_ok());
+    }
+    let long = "a text much too long for a gear of this size, whatever the letters";
+    let outfit = Outfit { label: label(LabelText::Same(long.into()), true), ..Outfit::default() };
+    assert!(matches!(fitted(&outfit), Err(OutfitError::NoRoomForText { .. })));
+    // A name is left out instead, and what no font has is left out of it.
+    let mut assembly = pair(Bore::None);
+    let outfit = Outfit { label: label(LabelText::Names, true), ..Outfit::default() };
+    let names = [long.to_owned(), "do\u{7}ve".to_owned()];
+    let warnings = fit_out(&mut assembly, &outfit, &names, MODULE).unwrap();
+    assert!(warnings.len() == 1 && warnings[0].contains("driver"), "{warnings:?}");
+    assert_eq!(assembly.gears[1].gear.fittings.marks.len(), 1 + 4);
+}
+
+#[test]
+fn the_largest_that_is_told_fits() {
+    let hub = |diameter| Outfit {
+        hub: Some(HubChoice { diameter: Some(diameter), height: 5.0, set_screw: None }),
+        ..Outfit::default()
+    };
+    let screws = |diameter| Outfit {
+        screws: Some(Screws { count: 6, diameter, circle: Some(15.0) }),
+        ..Outfit::default()
+    };
+    for make in [&hub as &dyn Fn(f64) -> Outfit, &screws] {
+        let Err(OutfitError::NoRoom { largest, .. }) = fitted(&make(79.0)) else {
+            panic!("it was not refused")
+        };
+        assert!(largest > 10.0);
+        let (assembly, _) = fitted(&make(largest)).unwrap();
+        assert!(assembly_solids(&assembly).is_ok(), "{largest}");
+    }
+    assert!(matches!(fitted(&hub(5.5)), Err(OutfitError::BadSize { .. })));
+}
+
+fn middle(ring: &[Point]) -> Point {
+    geometry::centroid(ring)
+}
+
+fn plate(outfit: &Outfit) -> Fixture {
+    let (assembly, _) = fitted(outfit).unwrap();
+    assert!(assembly_solids(&assembly).is_ok());
+    assembly.fixtures[0].clone()
+}
+
+#[test]
+fn pins_stand_on_the_axes_and_leave_play() {
+    for (fit, play) in [(None, policy::SLIDE_FIT), (Some(0.3), 0.3)] {
+        let base = plate(&Outfit { base: Base::Pins, fit, ..Outfit::default() });
+        assert_eq!(base.posts.len(), 4);
+        for (post, x) in base.posts.iter().zip([0.0, 0.0, 80.0, 80.0]) {
+            assert!((middle(&post.ring) - Point::new(x, 0.0)).norm() < 1e-9);
+        }
+        let pin = (geometry::area(&base.posts[1].ring) / PI).sqrt();
+        assert!((pin - (2.5 - play)).abs() < 0.01, "{pin}");
+        // The gears rest on the shoulders and the pins go through them.
+        assert_eq!(base.posts[0].to + base.z, 0.0);
+        assert_eq!(base.posts[1].to + base.z, 8.0 + policy::PIN_OVERHANG);
+    }
+    let mut bare = pair(Bore::None);
+    let outfit = Outfit { base: Base::Pins, ..Outfit::default() };
+    let error = fit_out(&mut bare, &outfit, &names(), MODULE).unwrap_err();
+    assert!(matches!(error, OutfitError::NoBore { .. }));
+}
+
+#[test]
+fn a_lego_plate_has_a_hole_every_eight_millimetres() {
+    let outfit = Outfit { base: Base::Lego, ..Outfit::default() };
+    let base = plate(&outfit);
+    assert_eq!(base.holes.len(), 3 * 13);
+    for hole in &base.holes {
+        let at = middle(hole) / 8.0;
+        assert!((at.x - at.x.round()).abs() < 1e-9 && (at.y - at.y.round()).abs() < 1e-9);
+    }
+    for (post, x) in base.posts.iter().zip([0.0, 80.0]) {
+        assert!((middle(&base.holes[post.hole.unwrap()]) - Point::new(x, 0.0)).norm() < 1e-9);
+    }
+    let error = outfit.check_distance(83.0).unwrap_err();
+    assert_eq!(error, OutfitError::OffTheGrid { distance: 83.0, nearest: 10 });
+    assert_eq!(outfit.check_distance(88.0), Ok(()));
+}
+
+#[test]
+fn all_of_it_goes_together() {
+    let outfit = Outfit {
+        fit: Some(policy::SLIDE_FIT),
+        hub: Some(HubChoice { diameter: None, height: 6.0, set_screw: Some(2.5) }),
+        screws: None,
+        lightening: Lightening::Auto,
+        label: Some(Label { text: LabelText::Names, raised: true }),
+        phase_mark: None,
+        chamfer: 0.4,
+        base: Base::Pins,
+        base_thickness: 4.0,
+    };
+    let (assembly, warnings) = fitted(&outfit).unwrap();
+    assert!(warnings.is_empty(), "{warnings:?}");
+    assert_eq!(assembly_solids(&assembly).map(|m| m.len()), Ok(3));
+}
+
+#[test]
+fn sizes_out_of_range_are_refused_with_what_would_do() {
+    let plain = Outfit::default;
+    let hub = |height, set_screw| Some(HubChoice { diameter: None, height, set_screw });
+    let screws = |count| Some(Screws { count, diameter: 3.0, circle: None });
+    for outfit in [
+        Outfit { chamfer: 4.1, ..plain() },
+        Outfit { chamfer: f64::NAN, ..plain() },
+        Outfit { fit: Some(-0.1), ..plain() },
+        Outfit { fit: Some(9.0), ..plain() },
+        Outfit { hub: hub(0.0, None), ..plain() },
+        Outfit { hub: hub(1.0, Some(2.5)), ..plain() },
+        Outfit { hub: hub(4.0, Some(3.0)), ..plain() },
+        Outfit { screws: screws(0), ..plain() },
+        Outfit { screws: screws(99), ..plain() },
+        Outfit { lightening: Lightening::Holes(1), ..plain() },
+        Outfit { base: Base::Pins, base_thickness: 0.0, ..plain() },
+    ] {
+        let error = outfit.check(8.0).unwrap_err();
+        assert!(matches!(error, OutfitError::BadSize { .. }), "{outfit:?}");
+    }
+    assert_eq!(Outfit { chamfer: 4.0, ..plain() }.check(8.0), Ok(()));
+}
