@@ -102,7 +102,7 @@ def figure_8(bench, shapes, images):
     width = 1.05 * (x1 - x0)
     sides = [drawn(place, paper_pictures.DRIVER) + drawn(mate, paper_pictures.FOLLOWER) + mark for mate, mark in ((before, alarm), (after, ""))]
     svg = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{10 * x0 - 20:.0f} {-10 * y1 - 20:.0f} {20 * width + 40:.0f} '
-           f'{10 * (y1 - y0) + 40:.0f}" width="720">{sides[0]}<g transform="translate({10 * width:.0f} 0)">{sides[1]}</g></svg>\n')
+           f'{10 * (y1 - y0) + 40:.0f}" width="720" height="{360 * (y1 - y0) / width:.0f}">{sides[0]}<g transform="translate({10 * width:.0f} 0)">{sides[1]}</g></svg>\n')
     # What this program does: the lean of the pitch curves is bounded.
     _, record, _ = bench.design("figure-8", [shapes[name]] * 2, "--balance", "1", "--teeth", "96", NO_RUN)
     own = "not made"
