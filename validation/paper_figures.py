@@ -148,8 +148,8 @@ def figure_12(bench, shapes, images):
     shown = "" if images is None else "\n\n" + " ".join(
         f"![tau {t}](images/paper/figure-12-{t}.svg)" for t in ("none", "2.0", "1.2"))
     return ("## Figure 12: a bound on the torque\n\nfish-butterfly, 48 teeth. Greatest psi' of the finished pair from its motion and from its pitch curve; "
-            "roundness is 4 pi area / perimeter². The law is bounded by a shift and a cut that keep the cycle closed, not by cutting and "
-            "rescaling as Eq. 16 does, which lifts the greatest value above the bound again.\n\n"
+            "roundness is 4 pi area / perimeter². Eq. 16 cuts and rescales, which lifts the law above the bound again; here the rescaling "
+            "is solved for, and the bound is checked on the delivered spline.\n\n"
             + table(["tau_thres / tau_F", "max psi' from motion", "from pitch curve", "roundness of driver", "IoU", "verdict"], lines) + shown), good
 
 
