@@ -62,7 +62,7 @@ def three_poses(record, part="outline", poses=3, alarm=None):
     height, left, right = 1.02 * max(far), 1.02 * far[0], L + 1.02 * far[1]
     width = left + right
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{-10 * left:.0f} {-10 * height:.0f} '
-           f'{10 * poses * width:.0f} {20 * height:.0f}" width="{240 * poses}"><defs>']
+           f'{10 * poses * width:.0f} {20 * height:.0f}" width="{240 * poses}" height="{480 * height / width:.0f}"><defs>']
     for i, gear in enumerate(gears):
         out.append(f'<path id="g{i}" d="{path(gear[part])}" fill="{(DRIVER, FOLLOWER)[i]}"/>')
     out.append("</defs>")

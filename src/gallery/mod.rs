@@ -26,11 +26,11 @@ impl Shard {
         (1..=of).contains(&part).then_some(Self { part, of })
     }
 
-    /// Whether the job at `index` (from 0) belongs to this part. Neighbours go to different parts, so that all parts take about as
-    /// long.
+    /// Whether the job at `index` (from 0) belongs to this part. Neighbours go to different parts, and each round begins
+    /// one further on, so that no part gets one ratio only.
     #[must_use]
     pub fn has(self, index: usize) -> bool {
-        index % self.of == self.part - 1
+        (index + index / self.of) % self.of == self.part - 1
     }
 }
 

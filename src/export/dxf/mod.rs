@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// `pair.dxf` with all gears in mesh, and `<gear>.dxf` with each alone, its axis at the origin; mm.
 ///
 /// One closed polyline with bulges per contour, round bores as circles. Layers: one per gear, named
-/// like it, `bores`, `pitch-curves`, `centres`.
+/// like it, `bores`, `openings` (other holes), `pitch-curves`, `centres`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dxf {
     /// Straight segments instead of arcs, for programs that read nothing else.
@@ -32,6 +32,7 @@ impl Default for Dxf {
 }
 
 const BORES: &str = "bores";
+const OPENINGS: &str = "openings";
 const PITCH_CURVES: &str = "pitch-curves";
 const CENTRES: &str = "centres";
 
@@ -67,6 +68,8 @@ impl Export for Dxf {
 struct Drawn {
     outline: Contour,
     bore: Option<Contour>,
+    /// Holes besides the bore.
+    openings: Vec<Contour>,
     pitch_curve: Contour,
 }
 
@@ -74,10 +77,12 @@ impl Dxf {
     fn drawn(&self, placed: &PlacedGear) -> Result<Drawn, String> {
         let gear = &placed.gear;
         let bore = |b: &Vec<Point>| contour(b, self.tolerance, true, self.polyline);
+        let openings = gear.fittings.openings.iter();
         let coarse = policy::DRAWN_CURVE_TOLERANCE.max(self.tolerance);
         Ok(Drawn {
             outline: contour(&gear.outline, self.tolerance, false, self.polyline)?,
             bore: gear.bore.as_ref().map(bore).transpose()?,
+            openings: openings.map(|o| bore(&o.ring)).collect::<Result<_, _>>()?,
             pitch_curve: contour(&gear.pitch_curve, coarse, false, self.polyline)?,
         })
     }
@@ -85,7 +90,7 @@ impl Dxf {
     /// The gears in mesh, or one alone with its axis at the origin.
     fn sheet<'a>(gears: impl Iterator<Item = (&'a PlacedGear, &'a Drawn)>, in_mesh: bool) -> Sheet {
         let mut sheet = Sheet {
-            layers: [(BORES, 1), (PITCH_CURVES, 8), (CENTRES, 3)]
+            layers: [(BORES, 1), (OPENINGS, 6), (PITCH_CURVES, 8), (CENTRES, 3)]
                 .map(|(name, color)| (name.to_owned(), color))
                 .to_vec(),
             items: Vec::new(),
@@ -101,6 +106,9 @@ impl Dxf {
             add(&drawn.outline, &layer);
             if let Some(bore) = &drawn.bore {
                 add(bore, BORES);
+            }
+            for opening in &drawn.openings {
+                add(opening, OPENINGS);
             }
             add(&drawn.pitch_curve, PITCH_CURVES);
             sheet.items.push((CENTRES.to_owned(), Item::Point(axis)));

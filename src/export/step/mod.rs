@@ -118,15 +118,21 @@ impl Step {
     }
 
     fn solid(&self, e: &mut Entities, gear: &Gear, thickness: f64) -> Result<Id, String> {
-        let outline = self.ring(&gear.outline, false)?;
-        let rings = match &gear.bore {
-            None => vec![outline],
-            Some(bore) => {
-                let hole = self.ring(bore, true)?;
-                vec![outline, hole.iter().rev().map(prism::reversed).collect()]
-            }
+        let hole = |ring: &Vec<Point>| -> Result<Vec<Stretch>, String> {
+            Ok(self.ring(ring, true)?.iter().rev().map(prism::reversed).collect())
         };
-        prism::solid(e, &text(&gear.name), &rings, thickness)
+        let fittings = &gear.fittings;
+        let stack = prism::Stack {
+            outline: self.ring(&gear.outline, false)?,
+            openings: fittings.openings.iter().map(|o| hole(&o.ring)).collect::<Result<_, _>>()?,
+            bore: gear.bore.as_ref().map(hole).transpose()?,
+            height: thickness,
+            hub: fittings.hub.map(|hub| {
+                let circle = halves(Point::origin(), hub.radius).map(Stretch::Arc).to_vec();
+                (circle, thickness + hub.height)
+            }),
+        };
+        prism::solid(e, &text(&gear.name), &stack)
     }
 
     /// The stretches of a counter-clockwise ring.

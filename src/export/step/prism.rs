@@ -23,50 +23,98 @@ struct Edges {
     curves: Vec<Id>,
 }
 
-/// The solid from z = 0 to `height` over rings with the material on their left: the outer one
-/// counter-clockwise, holes clockwise. Edges are shared by the faces that meet in them.
+/// What stands on what: every ring with the material on its left, the outer one counter-clockwise, holes
+/// clockwise. Heights in mm.
+pub(super) struct Stack {
+    /// The outline.
+    pub(super) outline: Vec<Stretch>,
+    /// Holes through the body.
+    pub(super) openings: Vec<Vec<Stretch>>,
+    /// The hole through body and hub.
+    pub(super) bore: Option<Vec<Stretch>>,
+    /// Height of the body.
+    pub(super) height: f64,
+    /// What stands on the body, counter-clockwise, and the height of its top.
+    pub(super) hub: Option<(Vec<Stretch>, f64)>,
+}
+
+/// The solid of a stack, from z = 0 on. Edges are shared by the faces that meet in them.
 ///
 /// # Errors
 /// Half a sentence when a ring does not close.
-pub(super) fn solid(
-    e: &mut Entities,
-    name: &str,
-    rings: &[Vec<Stretch>],
-    height: f64,
-) -> Result<Id, String> {
+pub(super) fn solid(e: &mut Entities, name: &str, stack: &Stack) -> Result<Id, String> {
     let mut faces = Vec::new();
-    let mut loops = [Vec::new(), Vec::new()];
-    for (number, ring) in rings.iter().enumerate() {
-        if ring.len() < 2 {
-            return Err("a ring has fewer than two edges".to_owned());
-        }
-        let edges = edges(e, ring, height);
-        let bound = if number == 0 { "FACE_OUTER_BOUND" } else { "FACE_BOUND" };
-        // From below the ring runs the other way.
-        let below: Vec<(Id, bool)> = edges.bottom.iter().rev().map(|&i| (i, false)).collect();
-        let above: Vec<(Id, bool)> = edges.top.iter().map(|&i| (i, true)).collect();
-        loops[0].push(bounded(e, bound, &below));
-        loops[1].push(bounded(e, bound, &above));
-        for (i, stretch) in ring.iter().enumerate() {
-            let next = (i + 1) % ring.len();
-            let around = [
-                (edges.bottom[i], true),
-                (edges.upright[next], true),
-                (edges.top[i], false),
-                (edges.upright[i], false),
-            ];
-            let bound = bounded(e, "FACE_OUTER_BOUND", &around);
-            let (surface, sense) = side(e, stretch, edges.curves[i]);
-            faces.push(e.add(format!("ADVANCED_FACE('',({bound}),{surface},{})", flag(sense))));
-        }
+    let top = stack.hub.as_ref().map_or(stack.height, |hub| hub.1);
+    let outline = wall(e, &stack.outline, [0.0, stack.height], &mut faces)?;
+    let mut openings = Vec::new();
+    for ring in &stack.openings {
+        openings.push(wall(e, ring, [0.0, stack.height], &mut faces)?);
     }
-    for (bounds, (z, up)) in loops.iter().zip([(0.0, false), (height, true)]) {
+    let bore = match &stack.bore {
+        Some(ring) => Some(wall(e, ring, [0.0, top], &mut faces)?),
+        None => None,
+    };
+    let hub = match &stack.hub {
+        Some((ring, top)) => Some(wall(e, ring, [stack.height, *top], &mut faces)?),
+        None => None,
+    };
+    // From below a ring runs the other way.
+    let below = |edges: &Edges| edges.bottom.iter().rev().map(|&i| (i, false)).collect::<Vec<_>>();
+    let above = |edges: &Edges| edges.top.iter().map(|&i| (i, true)).collect::<Vec<_>>();
+    let mut underside = vec![below(&outline)];
+    underside.extend(openings.iter().chain(&bore).map(below));
+    let mut face = vec![above(&outline)];
+    face.extend(openings.iter().map(above));
+    match &hub {
+        // The foot of the hub is a hole in the face that it stands on.
+        Some(hub) => face.push(below(hub)),
+        None => face.extend(bore.iter().map(above)),
+    }
+    let mut levels = vec![(0.0, false, underside), (stack.height, true, face)];
+    if let Some(hub) = &hub {
+        levels.push((top, true, std::iter::once(hub).chain(&bore).map(above).collect()));
+    }
+    for (z, up, loops) in levels {
+        let bounds: Vec<Id> = loops
+            .iter()
+            .enumerate()
+            .map(|(i, around)| {
+                let bound = if i == 0 { "FACE_OUTER_BOUND" } else { "FACE_BOUND" };
+                bounded(e, bound, around)
+            })
+            .collect();
         let frame = e.frame([0.0, 0.0, z], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
         let plane = e.add(format!("PLANE('',{frame})"));
-        faces.push(e.add(format!("ADVANCED_FACE('',({}),{plane},{})", list(bounds), flag(up))));
+        faces.push(e.add(format!("ADVANCED_FACE('',({}),{plane},{})", list(&bounds), flag(up))));
     }
     let shell = e.add(format!("CLOSED_SHELL('',({}))", list(&faces)));
     Ok(e.add(format!("MANIFOLD_SOLID_BREP({name},{shell})")))
+}
+
+/// The upright faces over a ring between two heights, and the ring's edges.
+fn wall(
+    e: &mut Entities,
+    ring: &[Stretch],
+    heights: [f64; 2],
+    faces: &mut Vec<Id>,
+) -> Result<Edges, String> {
+    if ring.len() < 2 {
+        return Err("a ring has fewer than two edges".to_owned());
+    }
+    let edges = edges(e, ring, heights);
+    for (i, stretch) in ring.iter().enumerate() {
+        let next = (i + 1) % ring.len();
+        let around = [
+            (edges.bottom[i], true),
+            (edges.upright[next], true),
+            (edges.top[i], false),
+            (edges.upright[i], false),
+        ];
+        let bound = bounded(e, "FACE_OUTER_BOUND", &around);
+        let (surface, sense) = side(e, stretch, edges.curves[i]);
+        faces.push(e.add(format!("ADVANCED_FACE('',({bound}),{surface},{})", flag(sense))));
+    }
+    Ok(edges)
 }
 
 fn flag(yes: bool) -> &'static str {
@@ -86,22 +134,22 @@ fn bounded(e: &mut Entities, bound: &str, edges: &[(Id, bool)]) -> Id {
     e.add(format!("{bound}('',{around},.T.)"))
 }
 
-fn edges(e: &mut Entities, ring: &[Stretch], height: f64) -> Edges {
+fn edges(e: &mut Entities, ring: &[Stretch], heights: [f64; 2]) -> Edges {
     let at = |p: Point, z: f64| [p.x, p.y, z];
     let vertices: Vec<[Id; 2]> =
-        ring.iter().map(|s| [0.0, height].map(|z| e.vertex(at(s.from(), z)))).collect();
+        ring.iter().map(|s| heights.map(|z| e.vertex(at(s.from(), z)))).collect();
     let upright = ring
         .iter()
         .zip(&vertices)
         .map(|(s, [low, high])| {
-            let line = e.line(at(s.from(), 0.0), [0.0, 0.0, 1.0]);
+            let line = e.line(at(s.from(), heights[0]), [0.0, 0.0, 1.0]);
             e.add(format!("EDGE_CURVE('',{low},{high},{line},.T.)"))
         })
         .collect();
     let (mut bottom, mut top, mut curves) = (Vec::new(), Vec::new(), Vec::new());
     for (i, stretch) in ring.iter().enumerate() {
         let next = (i + 1) % ring.len();
-        for (level, z) in [0.0, height].into_iter().enumerate() {
+        for (level, z) in heights.into_iter().enumerate() {
             let (curve, along) = curve(e, stretch, z);
             let (from, to) = (vertices[i][level], vertices[next][level]);
             let edge = e.add(format!("EDGE_CURVE('',{from},{to},{curve},{})", flag(along)));
