@@ -5,6 +5,7 @@ use crate::meshing::ContactError;
 use crate::meshing::{DynamicsError, DynamicsOptions};
 use crate::pitch::TransmissionError;
 use crate::solid::{Bore, SolidError};
+use crate::strength::Load;
 use crate::teeth::TeethError;
 
 /// How many teeth the driver gets.
@@ -85,6 +86,8 @@ pub struct DesignOptions {
     /// Rigid-body runs that the finished pair must pass; none by default. With `repair`, gentler
     /// settings are tried when it does not.
     pub runs: Vec<DynamicsOptions>,
+    /// Load for the look at strength; the runs have their own.
+    pub load: Load,
 }
 
 impl DesignOptions {
@@ -111,6 +114,7 @@ impl DesignOptions {
             carve_with_solids: false,
             repair: true,
             runs: Vec::new(),
+            load: Load::default(),
         }
     }
 }
