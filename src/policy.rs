@@ -847,6 +847,10 @@ pub const SYMMETRIC_DAMPING: f64 = 200.0;
 pub const SYMMETRIC_SAMPLES: usize = 8192;
 /// Rounds in which a symmetric law is brought within its bounds.
 pub const SYMMETRIC_ROUNDS: usize = 6;
+/// Samples where symmetric laws are only compared.
+pub const SYMMETRIC_SAMPLES_JUDGED: usize = 1024;
+/// Axes that are worked out when both gears must be one curve.
+pub const SYMMETRIC_STARTS: usize = 4;
 
 // Strength
 
