@@ -1,4 +1,40 @@
-//! Centrode turns two drawings into a pair of non-circular gears that mesh.
+//! Centrode turns two drawings, or one, or a wanted motion into a pair of non-circular gears that mesh.
+//!
+//! A tour, in the order the data flows:
+//! [`outline`] reads drawings; [`pitch`] rolls curves on each other; [`fit`] finds axes and motion for two shapes, or the
+//! mate of one; [`law`] reads motions as formulas and tables; [`teeth`] lays flanks on the pitch curves; [`design`] does all
+//! of it and judges the result with [`meshing`] and [`strength`]; [`solid`], [`export`] and [`report`] make files.
+//!
+//! Two shapes:
+//!
+//! ```no_run
+//! use centrode::design::{DesignOptions, design};
+//! use centrode::fit::Ratio;
+//! use centrode::outline::{LoadOptions, load};
+//!
+//! let driver = load("heart", &LoadOptions::default())?;
+//! let follower = load("dove.svg", &LoadOptions::default())?;
+//! let made = design(&driver, &follower, &DesignOptions::new(Ratio::ONE))?;
+//! assert!(made.is_sound(), "{:?}", made.faults);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A motion, and the pitch curves that belong to it:
+//!
+//! ```
+//! use centrode::law::{Formula, LawOptions, from_function};
+//! use centrode::pitch::Centrodes;
+//!
+//! let formula = Formula::parse("1 + 0.3*cos(2*phi)")?;
+//! let transmission = from_function(|phi| formula.at(phi), &LawOptions::default())?;
+//! let centrodes = Centrodes { transmission, center_distance: 80.0 };
+//! let touching = centrodes.driver_radius(1.0) + centrodes.follower_radius(1.0);
+//! assert!((touching - 80.0).abs() < 1e-9);
+//! # Ok::<(), centrode::law::LawError>(())
+//! ```
+//!
+//! Lengths are mm, angles radians, torques N mm. Nothing here prints, and only [`outline::load`], [`export`] and
+//! [`design::SavedDesign::read`] touch files.
 
 pub mod assembly;
 pub mod check;
@@ -15,4 +51,5 @@ pub mod policy;
 pub mod report;
 pub mod scene;
 pub mod solid;
+pub mod strength;
 pub mod teeth;

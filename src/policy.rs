@@ -1056,3 +1056,19 @@ pub const LIGHTENING_SMOOTHING: f64 = 2.5;
 /// How far the outermost point of a gear may stray between two keys of an animation, mm: a twentieth of the gap
 /// that the default clearance leaves, so that no pose in between overlaps.
 pub const ANIMATION_ARC_ERROR: f64 = 0.01;
+/// Samples where symmetric laws are only compared.
+pub const SYMMETRIC_SAMPLES_JUDGED: usize = 1024;
+/// Axes that are worked out when both gears must be one curve.
+pub const SYMMETRIC_STARTS: usize = 4;
+
+// Strength
+
+/// Least cosine between the force on a tooth and the way its point moves (85 degrees): steeper pairs bind, and a force
+/// without bounds would say nothing.
+pub const LEAST_FORCE_COSINE: f64 = 0.087;
+/// Sections of a tooth that are tried for the weakest; the factor changes by the square of a step.
+pub const LEWIS_SECTIONS: u32 = 200;
+/// Sections nearer to the vertex of the parabola than this bear no bending, in modules.
+pub const LEWIS_LEAST_DEPTH: f64 = 0.05;
+/// Depth, in half tips, over which the direction of a flank at its tip is taken: longer than the least edges.
+pub const LEWIS_FLANK_STEP: f64 = 0.05;

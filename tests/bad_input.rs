@@ -365,3 +365,19 @@ fn a_disk_that_is_read_only() {
         centrode(["design", "heart", "dove", "--search", "paper", "-o", &place.to_string_lossy()]);
     one_clear_line(&said, &["cannot write", "choose a folder"]);
 }
+
+#[test]
+fn choices_that_cannot_be_fixed() {
+    let bench = Bench::new();
+    for (more, word) in [
+        (&["--driver-axis", "900,900"][..], "(900.0000, 900.0000)"),
+        (&["--follower-axis", "-1,-1"], "does not lie inside"),
+        (&["--driver-axis", "nan,1"], "12.5,-3"),
+        (&["--orientation", "up"], "degrees"),
+        (&["--symmetric"], "one shape"),
+        (&["--symmetric", "--orientation", "10"], "cannot be used with"),
+        (&["--threads", "0"], "1..=1024"),
+    ] {
+        bench.refuses_options(&[&["heart", "dove"], more].concat(), &[word]);
+    }
+}

@@ -11,6 +11,7 @@ use centrode::fit::Ratio;
 use centrode::outline::{LoadOptions, Shape, Smoothing, load};
 use centrode::report::report_html;
 use centrode::solid::{Mesh, assembly_solids};
+use centrode::strength::Load;
 
 use super::args::{
     CarverArg, DesignArgs, ExportArgs, PairArgs, RunArgs, ShapeArgs, SizeArgs, StyleArg, TeethArgs,
@@ -93,6 +94,7 @@ impl Making<'_> {
             bore: self.outfit.bore().map_or(defaults.bore, BoreChoice::Exactly),
             outfit: self.outfit.outfit(),
             repair: !self.teeth.strict,
+            load: Load { torque: self.run.load, rpm: self.run.rpm, friction: self.run.friction },
             runs: if self.no_simulate {
                 Vec::new()
             } else {

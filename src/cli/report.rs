@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use centrode::design::{Design, run_record};
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section, Verdict};
+use centrode::teeth::Side;
 use serde_json::json;
 
 /// Samples of a curve on the page.
@@ -36,6 +37,8 @@ pub(crate) fn summary(
             "center_distance": made.centrodes.center_distance,
             "transmission_error_p99": error.map(|e| e.p99_deviation),
             "lost_poses": contact.lost_poses,
+            "weakest_tooth_stress": made.strength.weakest().map(|t| t.stress),
+            "efficiency": made.strength.efficiency,
             "contact_ratio": contact.contact_ratio,
             "simulation": made.proof.as_ref().map(|p| p.runs.iter().map(run_record).collect::<Vec<_>>()),
             "seconds": elapsed.as_secs_f64(),
@@ -102,6 +105,16 @@ pub(crate) fn summary(
             100.0 * error.p99_deviation,
             contact.lost_poses,
             made.contact.poses.len()
+        )?;
+    }
+    if let Some(tooth) = made.strength.weakest() {
+        writeln!(
+            out,
+            "weakest tooth: number {} of the {}, {:.2} MPa by Lewis's formula under {:.0} N mm",
+            tooth.index,
+            gear_name(tooth.side),
+            tooth.stress,
+            made.strength.load.torque
         )?;
     }
     for line in made.proof.iter().flat_map(super::proof::lines) {
@@ -292,7 +305,56 @@ fn sections(made: &Design) -> Vec<Section> {
             "both gears; steeper: pressure angle raised up to 30°; shortened: to avoid undercut; blunted: pointed tip",
         );
     }
-    vec![gears, fit, mesh]
+    vec![gears, fit, mesh, strength_section(made)]
+}
+
+fn gear_name(side: Side) -> &'static str {
+    match side {
+        Side::Driver => "driver",
+        Side::Follower => "follower",
+    }
+}
+
+/// Bending of the weakest tooth, power and efficiency.
+fn strength_section(made: &Design) -> Section {
+    let strength = &made.strength;
+    let mut section = Section::new("Strength, a first look")
+        .row("Load on the follower", format!("{:.1} N mm", strength.load.torque));
+    if let Some(tooth) = strength.weakest() {
+        section = section
+            .noted_row(
+                "Weakest tooth",
+                format!("number {} of the {}", tooth.index, gear_name(tooth.side)),
+                format!(
+                    "counter-clockwise from 0; its tip is at ({:.1}, {:.1}) mm, in mesh at {:.0}° of driver turn",
+                    tooth.tip.x,
+                    tooth.tip.y,
+                    tooth.driver_angle.to_degrees()
+                ),
+            )
+            .noted_row(
+                "Its bending stress",
+                format!("{:.2} MPa", tooth.stress),
+                format!(
+                    "Lewis's formula, one tooth carries {:.1} N at its tip, Y = {:.3}; static, without stress concentration",
+                    tooth.force, tooth.form_factor
+                ),
+            );
+    }
+    section
+        .noted_row(
+            "Mean power",
+            format!("{:.3} W", strength.power),
+            format!("at {:.0} turns of the driver a minute", strength.load.rpm),
+        )
+        .noted_row(
+            "Efficiency",
+            format!("{:.1} %", 100.0 * strength.efficiency),
+            format!(
+                "estimated as for spur gears, with friction {:.2}; bearings not counted",
+                strength.load.friction
+            ),
+        )
 }
 
 fn plots(made: &Design) -> Vec<Plot> {

@@ -12,6 +12,7 @@ use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
 use crate::solid::{carve_follower_with_manifold, circle};
+use crate::strength::{Loaded, strength};
 use crate::teeth::{self, Profile, TeethError, TeethOptions, ToothedPair};
 
 /// What may be changed from one attempt to the next.
@@ -486,7 +487,17 @@ impl Attempt {
             .map(|((gear, axis), angle)| placed_gear(gear, axis, angle))
             .collect();
         let faults = self.faults();
+        let strength = strength(&Loaded {
+            centrodes: &self.centrodes,
+            profiles: [&self.finished[0], &self.finished[1]],
+            module: self.pair.module,
+            thickness: options.thickness,
+            pressure_angle: options.pressure_angle,
+            contact_ratio: self.contact.summary.contact_ratio,
+            load: options.load,
+        });
         Ok(Design {
+            strength,
             names: source.names.clone(),
             options: options.clone(),
             assembly: Assembly {

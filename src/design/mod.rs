@@ -27,6 +27,7 @@ use crate::outline::Shape;
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
 use crate::solid::Bore;
+use crate::strength::Strength;
 use crate::teeth::ToothedPair;
 use attempt::{Attempt, Settings};
 use source::Source;
@@ -58,6 +59,8 @@ pub struct Design {
     pub exact_contact: ContactAnalysis,
     /// Contact of the finished gears.
     pub contact: ContactAnalysis,
+    /// Bending of the teeth, power and efficiency under [`DesignOptions::load`].
+    pub strength: Strength,
     /// The rigid-body runs and their verdict, once made.
     pub proof: Option<MeshingReport>,
     /// What was done to make the pair work, in order.
@@ -265,6 +268,14 @@ fn check(options: &DesignOptions) -> Result<(), DesignError> {
         Scale::Extent(value) => length("the size", value)?,
     }
     length("the thickness", options.thickness)?;
+    let load = &options.load;
+    for (name, value) in
+        [("the load", load.torque), ("the speed", load.rpm), ("the friction", load.friction)]
+    {
+        if !(value >= 0.0 && value.is_finite()) {
+            return refuse(name, value, "give a number of 0 or more".to_owned());
+        }
+    }
     for (name, value) in [
         ("the clearance", options.clearance),
         ("the backlash", options.backlash),

@@ -6,6 +6,7 @@ use crate::meshing::ContactError;
 use crate::meshing::{DynamicsError, DynamicsOptions};
 use crate::pitch::TransmissionError;
 use crate::solid::{Bore, SolidError};
+use crate::strength::Load;
 use crate::teeth::TeethError;
 
 /// How many teeth the driver gets.
@@ -91,6 +92,8 @@ pub struct DesignOptions {
     /// Judge the pair at the poses of a trial only, and do not relieve it: three times faster, for
     /// galleries.
     pub quick: bool,
+    /// Load for the look at strength; the runs have their own.
+    pub load: Load,
 }
 
 impl DesignOptions {
@@ -119,6 +122,7 @@ impl DesignOptions {
             repair: true,
             runs: Vec::new(),
             quick: false,
+            load: Load::default(),
         }
     }
 }

@@ -7,6 +7,8 @@ use super::fittings_record::{FittingsRecord, FixtureRecord};
 use crate::assembly::PlacedGear;
 use crate::geometry::Point;
 use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
+use crate::strength::Strength;
+use crate::teeth::Side;
 
 /// The record of one design; field order is the order in the file. Lengths mm, angles radians.
 #[derive(Debug, Serialize)]
@@ -32,6 +34,7 @@ pub struct Record {
     #[serde(skip_serializing_if = "Option::is_none")]
     law: Option<Law>,
     meshing: Meshing,
+    strength: StrengthRecord,
     settings: Settings,
 }
 
@@ -119,6 +122,55 @@ struct Meshing {
     runs: Vec<serde_json::Value>,
 }
 
+/// Bending by Lewis's formula for one tooth that carries all at its tip. Torque in N mm, stress in MPa, power in W.
+#[derive(Debug, Serialize)]
+struct StrengthRecord {
+    load: f64,
+    rpm: f64,
+    friction: f64,
+    power: f64,
+    /// Estimated; the runs give a measured one.
+    efficiency: f64,
+    weakest_tooth: Option<ToothRecord>,
+}
+
+#[derive(Debug, Serialize)]
+struct ToothRecord {
+    gear: &'static str,
+    /// Counter-clockwise on its gear, from zero.
+    index: usize,
+    tip: [f64; 2],
+    /// At which it is at the pitch point.
+    driver_angle: f64,
+    force: f64,
+    form_factor: f64,
+    stress: f64,
+}
+
+impl StrengthRecord {
+    fn new(strength: &Strength) -> Self {
+        Self {
+            load: strength.load.torque,
+            rpm: strength.load.rpm,
+            friction: strength.load.friction,
+            power: strength.power,
+            efficiency: strength.efficiency,
+            weakest_tooth: strength.weakest().map(|tooth| ToothRecord {
+                gear: match tooth.side {
+                    Side::Driver => "driver",
+                    Side::Follower => "follower",
+                },
+                index: tooth.index,
+                tip: [tooth.tip.x, tooth.tip.y],
+                driver_angle: tooth.driver_angle,
+                force: tooth.force,
+                form_factor: tooth.form_factor,
+                stress: tooth.stress,
+            }),
+        }
+    }
+}
+
 #[derive(Debug, Serialize)]
 struct Settings {
     ratio: String,
@@ -137,6 +189,13 @@ struct Settings {
     bore: String,
     outfit: String,
     repair: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    driver_axis: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    follower_axis: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    orientation: Option<f64>,
+    symmetric: bool,
 }
 
 impl Record {
@@ -199,6 +258,7 @@ impl Record {
                 max_lean: design.centrodes.max_lean(),
                 runs: design.proof.iter().flat_map(|p| p.runs.iter().map(run_record)).collect(),
             },
+            strength: StrengthRecord::new(&design.strength),
             settings: Settings {
                 ratio: options.ratio.to_string(),
                 search: format!("{:?}", options.fit.search).to_lowercase(),
@@ -216,6 +276,10 @@ impl Record {
                 bore: format!("{:?}", options.bore),
                 outfit: format!("{:?}", options.outfit),
                 repair: options.repair,
+                driver_axis: options.fit.fixed.driver_axis.map(|p| [p.x, p.y]),
+                follower_axis: options.fit.fixed.follower_axis.map(|p| [p.x, p.y]),
+                orientation: options.fit.fixed.orientation,
+                symmetric: options.fit.symmetric,
             },
         }
     }

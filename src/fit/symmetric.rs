@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::global_search::{interior_grid, thinned};
 use super::laws::directions;
 use super::limits::{LimitCost, apply};
-use super::objective::{Objective, greatest};
+use super::objective::Objective;
 use super::placement::{FittedGear, Similarity};
 use super::{Fit, FitError, FitOptions};
 use crate::geometry::{self, Point};
@@ -37,6 +37,11 @@ pub struct Symmetric {
 /// # Errors
 /// [`FitError::Transmission`] for samples that are no law.
 pub fn symmetrised(samples: &[f64]) -> Result<Symmetric, FitError> {
+    resampled(samples, policy::SYMMETRIC_SAMPLES)
+}
+
+/// [`symmetrised`] with `count` samples: fewer where a law is only to be judged.
+fn resampled(samples: &[f64], count: usize) -> Result<Symmetric, FitError> {
     let law = Transmission::from_derivative(samples, 1, 1)?;
     let q = by_sum(&law, policy::SYMMETRIC_SUMS);
     let (mirror, _) = best_mirror(&q);
@@ -51,7 +56,6 @@ pub fn symmetrised(samples: &[f64]) -> Result<Symmetric, FitError> {
         })
         .sum::<f64>()
         / n as f64;
-    let count = policy::SYMMETRIC_SAMPLES;
     let made: Vec<f64> = (0..count)
         .into_par_iter()
         .map(|i| {
@@ -135,7 +139,7 @@ impl Series {
             .map(|k| {
                 let wave = |j: usize| (0.5 * k as f64 * (j as f64 * step - mirror)).sin();
                 let sum: f64 = (0..n).map(|j| q[j] * wave(j)).sum();
-                let damped = (-(k as f64 / policy::SYMMETRIC_DAMPING).powi(2)).exp();
+                let damped = (-(k as f64 / policy::SYMMETRIC_DAMPING).powi(4)).exp();
                 2.0 * sum / n as f64 * damped
             })
             .collect();
@@ -188,7 +192,8 @@ impl Series {
 /// A candidate axis worked out.
 struct Seat {
     raw: Vec<f64>,
-    made: Symmetric,
+    /// Limits kept, nearly symmetric.
+    law: Vec<f64>,
     cost: LimitCost,
     shape: f64,
     lost_area: f64,
@@ -204,13 +209,14 @@ fn seat(points: &[Point], axis: Point, options: &FitOptions) -> Result<Seat, Fit
     let mut limits = options.limits;
     let mut law = raw.clone();
     let mut first = None;
-    let mut made = symmetrised(&law)?;
+    let mut torque = 0.0;
     for _ in 0..policy::SYMMETRIC_ROUNDS {
         let (limited, cost) = apply(&law, (1, 1), &limits)?;
         first.get_or_insert(cost);
-        made = symmetrised(&limited)?;
+        let made = resampled(&limited, policy::SYMMETRIC_SAMPLES_JUDGED)?;
+        law = limited;
         let transmission = Transmission::from_derivative(&made.samples, 1, 1)?;
-        let torque = transmission.max_derivative();
+        torque = transmission.max_derivative();
         let lean = Centrodes { transmission, center_distance: 1.0 }.max_lean();
         let over = lean / options.limits.max_lean;
         let torque_over = options.limits.max_derivative.map_or(0.0, |most| torque / most);
@@ -221,12 +227,11 @@ fn seat(points: &[Point], axis: Point, options: &FitOptions) -> Result<Seat, Fit
         if let Some(most) = &mut limits.max_derivative {
             *most = (*most / torque_over.max(1.0)).max(1.0);
         }
-        law = limited;
     }
     let cost = first.unwrap_or_default();
     let lost_area = curve.lost_area();
-    let total = shape + cost.shape + options.weight * greatest(&made.samples);
-    Ok(Seat { raw, made, cost, shape, lost_area, total })
+    let total = shape + cost.shape + options.weight * torque;
+    Ok(Seat { raw, law, cost, shape, lost_area, total })
 }
 
 /// Fits a shape to itself so that both gears have the same pitch curve.
@@ -255,7 +260,7 @@ pub(super) fn fit_symmetric(shape: &Outline, options: &FitOptions) -> Result<Fit
                 .filter_map(|p| Some((rough(p)?, p)))
                 .collect();
             seats.sort_by(|a, b| a.0.total_cmp(&b.0));
-            (seats.into_iter().take(policy::MATE_STARTS).map(|s| s.1).collect(), scored)
+            (seats.into_iter().take(policy::SYMMETRIC_STARTS).map(|s| s.1).collect(), scored)
         }
     };
     let mut best: Option<(Point, Seat)> = None;
@@ -270,7 +275,8 @@ pub(super) fn fit_symmetric(shape: &Outline, options: &FitOptions) -> Result<Fit
         }
     }
     let (axis, seat) = best.ok_or(refused)?;
-    let transmission = Transmission::from_derivative(&seat.made.samples, 1, 1)?;
+    let made = symmetrised(&seat.law)?;
+    let transmission = Transmission::from_derivative(&made.samples, 1, 1)?;
     let torque = transmission.max_derivative();
     let centrodes = Centrodes { transmission, center_distance: 1.0 };
     let fitted = |curve: Vec<Point>, angle: f64| {
@@ -282,7 +288,7 @@ pub(super) fn fit_symmetric(shape: &Outline, options: &FitOptions) -> Result<Fit
     };
     let count = policy::PLACEMENT_SAMPLES;
     let driver = fitted(centrodes.driver_curve(count), 0.0);
-    let follower = fitted(centrodes.follower_curve(count), seat.made.turn);
+    let follower = fitted(centrodes.follower_curve(count), made.turn);
     let objective = Objective {
         total: seat.shape + seat.cost.shape + options.weight * torque,
         shape: seat.shape,
