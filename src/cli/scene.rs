@@ -59,11 +59,16 @@ fn words_of(args: &SceneArgs) -> anyhow::Result<Vec<OsString>> {
     let Some(known) = top.find_subcommand(command) else { bail!("there is no command {command}") };
     let folder = args.scene.parent().unwrap_or(Path::new(""));
     let said = read(&text, &keys(known))?;
+    // An option after -- takes the place of the scene's, in its long or its short form.
     let overridden = |key: &str| {
         let long = format!("--{key}");
-        args.more
-            .iter()
-            .any(|w| w.to_str().is_some_and(|w| w == long || w.starts_with(&format!("{long}="))))
+        let short = known.get_arguments().find(|a| name_of(a) == key).and_then(Arg::get_short);
+        let is_it = |w: &str| {
+            w == long
+                || w.starts_with(&format!("{long}="))
+                || short.is_some_and(|c| w.starts_with(&format!("-{c}")))
+        };
+        args.more.iter().any(|w| w.to_str().is_some_and(is_it))
     };
     let mut options: Vec<OsString> = Vec::new();
     let mut places: Vec<(usize, OsString)> = Vec::new();
