@@ -49,10 +49,8 @@ pub(super) fn place(
 ) -> Result<Fit, FitError> {
     let scored = problem.score(candidate)?;
     let (driver_fold, follower_fold) = problem.folds();
-    let window = Transmission::from_derivative(&scored.limited, driver_fold, follower_fold)?;
-    // In the window's angles the driver's own direction is -shift at 0 when the driver is the long gear.
-    let start = if problem.short_role() == Role::Driver { 0.0 } else { candidate.shift };
-    let transmission = if start == 0.0 { window } else { window.shifted(-start) };
+    let start = start_of(problem, candidate);
+    let transmission = motion_of(problem, candidate, &scored)?;
     let raw = turned(&scored.blend, -start / problem.step());
     let centrodes = Centrodes { transmission, center_distance: 1.0 };
     let count = policy::PLACEMENT_SAMPLES;
@@ -92,7 +90,37 @@ pub(super) fn place(
         driver,
         follower,
         pairs_scored,
+        refinement: None,
     })
+}
+
+/// Where the window begins: in its angles the driver's own direction is -shift at 0 when the driver is the long gear.
+fn start_of(problem: &Problem<'_>, candidate: &Candidate) -> f64 {
+    if problem.short_role() == Role::Driver { 0.0 } else { candidate.shift }
+}
+
+fn motion_of(
+    problem: &Problem<'_>,
+    candidate: &Candidate,
+    scored: &Scored,
+) -> Result<Transmission, FitError> {
+    let (driver_fold, follower_fold) = problem.folds();
+    let window = Transmission::from_derivative(&scored.limited, driver_fold, follower_fold)?;
+    let start = start_of(problem, candidate);
+    Ok(if start == 0.0 { window } else { window.shifted(-start) })
+}
+
+/// A candidate's motion, the driver's drawing upright, and the turn of the follower's drawing.
+pub(super) fn motion(
+    problem: &Problem<'_>,
+    candidate: &Candidate,
+) -> Result<(Transmission, f64), FitError> {
+    let scored = problem.score(candidate)?;
+    let start = start_of(problem, candidate);
+    let transmission = motion_of(problem, candidate, &scored)?;
+    let centrodes = Centrodes { transmission, center_distance: 1.0 };
+    let angle = follower_angle(problem, candidate, &scored, &centrodes, start);
+    Ok((centrodes.transmission, angle))
 }
 
 /// Mean turn from the follower's drawing to its gear: at each sample the direction in the drawing that its own law puts at the
