@@ -864,25 +864,33 @@ pub struct PolishStage {
 }
 /// The passes of the refinement, from many rough starts to a few sharp ends.
 pub const POLISH_STAGES: [PolishStage; 3] = [
-    PolishStage { waves: 8, places: 128, blur: 6.0, rounds: 25, kept: 8 },
-    PolishStage { waves: 16, places: 256, blur: 2.0, rounds: 30, kept: 4 },
-    PolishStage { waves: 24, places: 512, blur: 0.5, rounds: 60, kept: 3 },
+    PolishStage { waves: 8, places: 96, blur: 6.0, rounds: 20, kept: 6 },
+    PolishStage { waves: 16, places: 192, blur: 2.0, rounds: 30, kept: 3 },
+    PolishStage { waves: 24, places: 384, blur: 0.5, rounds: 60, kept: 2 },
 ];
 /// Waves of a start's law.
 pub const POLISH_START_WAVES: usize = 8;
 /// Ends nearer to each other than this (lengths over the drawing's, radians, shares) are one.
 pub const POLISH_TWINS: f64 = 0.02;
+/// Samples of the law of a start: it keeps only a few waves.
+pub const POLISH_START_SAMPLES: usize = 128;
 /// Cells of each angle's period in a warped alignment; a step spans up to five.
-pub const WARP_CELLS: usize = 96;
+pub const WARP_CELLS: usize = 48;
 /// Cells between the follower angles from which paths start.
 pub const WARP_STRIDE: usize = 4;
 /// A path strays from the even motion by a period over this at most.
 pub const WARP_BAND: usize = 3;
-/// Starts nearer than this many cells are one alignment.
-pub const WARP_APART: usize = 6;
-/// Alignments kept for each pair of centres.
-pub const WARP_KEPT: usize = 2;
+/// Centres spread over each drawing between which motions are warped, at least.
+pub const WARP_CENTERS: usize = 9;
+/// Centres of the search that join them.
+pub const WARP_CANDIDATES: usize = 4;
+/// A found centre nearer than this to one of those spread, over their spacing, adds nothing.
+pub const WARP_APART: f64 = 0.3;
+/// Warped alignments from which a refinement starts.
+pub const WARP_KEPT: usize = 16;
 /// Passes of smoothing over a path's steps.
-pub const WARP_SMOOTHING: usize = 3;
+pub const WARP_SMOOTHING: usize = 2;
 /// Default weight in E of the area that cannot be seen from an axis, as a share of the drawing's.
 pub const DEFAULT_STAR_WEIGHT: f64 = 2.0;
+/// Share of a drawing's area that must be lost before the loss is worth a warning.
+pub const LOST_AREA_WORTH_SAYING: f64 = 0.005;

@@ -245,6 +245,15 @@ pub(crate) struct FitArgs {
     /// Steepest lean of the pitch curve against its radius, degrees
     #[arg(long, default_value = "55", value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     pub(crate) max_lean: f64,
+    /// Move motion, axes and drawings on together after the search until the pitch curves cover the drawings best (default with the global search)
+    #[arg(long, overrides_with = "no_refine")]
+    pub(crate) refine: bool,
+    /// Keep the blend of both laws that the search gives, as the paper does
+    #[arg(long, overrides_with = "refine")]
+    pub(crate) no_refine: bool,
+    /// Weight in E of the area that cannot be seen from the axes
+    #[arg(long, default_value = "2", value_name = "WEIGHT", value_parser = units::zero_or_more, allow_hyphen_values = true)]
+    pub(crate) star_weight: f64,
 }
 
 /// What the teeth are like.

@@ -55,6 +55,9 @@ fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
                 max_lean: args.fit.max_lean,
                 max_curvature: None,
             },
+            star_weight: args.fit.star_weight,
+            refine: args.fit.refine
+                || (!args.fit.no_refine && args.fit.search == SearchArg::Global),
             ..defaults.fit
         },
         teeth: match (args.teeth.teeth, args.teeth.module) {

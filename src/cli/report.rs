@@ -41,9 +41,13 @@ pub(crate) fn summary(
                 "weight": objective.weight,
                 "limiting_cost": objective.limiting_cost,
                 "folding_cost": objective.folding_cost,
+                "lost_cost": objective.lost_cost,
                 "total": objective.total,
             },
             "resemblance": made.likeness,
+            "lost_area": [made.fit.driver.lost_area, made.fit.follower.lost_area],
+            "max_derivative": made.centrodes.transmission.max_derivative(),
+            "refinement": made.fit.refinement.map(|r| [r.before, r.after]),
             "transmission_error_p99": error.map(|e| e.p99_deviation),
             "lost_poses": contact.lost_poses,
             "contact_ratio": contact.contact_ratio,
@@ -210,6 +214,15 @@ fn sections(made: &Design) -> Vec<Section> {
             "Likeness of the follower",
             percent(made.likeness[1]),
             "area of intersection over union",
+        )
+        .noted_row(
+            "Area that cannot be kept",
+            format!(
+                "{} of the driver, {} of the follower",
+                percent(made.fit.driver.lost_area),
+                percent(made.fit.follower.lost_area)
+            ),
+            "it cannot be seen from the axis",
         )
         .noted_row(
             "E",

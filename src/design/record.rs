@@ -56,6 +56,8 @@ struct ObjectiveRecord {
     limiting_cost: f64,
     /// What repeating one window round the larger gear changed, in the same measure.
     folding_cost: f64,
+    /// What the area that cannot be seen from the axes counts.
+    lost_cost: f64,
     /// What the search made small: all of the above.
     total: f64,
 }
@@ -64,6 +66,11 @@ struct ObjectiveRecord {
 struct Resemblance {
     driver_iou: f64,
     follower_iou: f64,
+    /// Area that cannot be seen from the axis, over the drawing's.
+    driver_lost_area: f64,
+    follower_lost_area: f64,
+    /// `t (1 - IoU_D) + (1 - t) (1 - IoU_F) + kappa omega max psi'` before and after the refinement, if there was one.
+    refinement: Option<[f64; 2]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -97,6 +104,8 @@ struct Settings {
     balance: f64,
     max_torque: Option<f64>,
     max_lean: f64,
+    refine: bool,
+    star_weight: f64,
     teeth_style: String,
     pressure_angle: f64,
     addendum: f64,
@@ -138,11 +147,15 @@ impl Record {
                 weight: objective.weight,
                 limiting_cost: objective.limiting_cost,
                 folding_cost: objective.folding_cost,
+                lost_cost: objective.lost_cost,
                 total: objective.total,
             },
             resemblance: Resemblance {
                 driver_iou: design.likeness[0],
                 follower_iou: design.likeness[1],
+                driver_lost_area: design.fit.driver.lost_area,
+                follower_lost_area: design.fit.follower.lost_area,
+                refinement: design.fit.refinement.map(|r| [r.before, r.after]),
             },
             meshing: Meshing {
                 verdict: design.verdict(),
@@ -169,6 +182,8 @@ impl Record {
                 balance: options.fit.balance,
                 max_torque: options.fit.limits.max_derivative,
                 max_lean: options.fit.limits.max_lean,
+                refine: options.fit.refine,
+                star_weight: options.fit.star_weight,
                 teeth_style: format!("{:?}", options.style).to_lowercase(),
                 pressure_angle: options.pressure_angle,
                 addendum: options.addendum,

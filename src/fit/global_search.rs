@@ -229,7 +229,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
 }
 
 /// At least `count` points of a square grid inside the polygon, and the grid's spacing.
-fn interior_grid(points: &[Point], count: usize) -> (Vec<Point>, f64) {
+pub(super) fn interior_grid(points: &[Point], count: usize) -> (Vec<Point>, f64) {
     let (low, high) = geometry::bounds(points);
     let size = high - low;
     let mut spacing = (geometry::area(points) / count as f64).sqrt();
@@ -255,7 +255,7 @@ fn interior_grid(points: &[Point], count: usize) -> (Vec<Point>, f64) {
 }
 
 /// At most [`policy::SCAN_VERTICES`] of the vertices, evenly taken.
-fn thinned(points: &[Point]) -> Vec<Point> {
+pub(super) fn thinned(points: &[Point]) -> Vec<Point> {
     let stride = points.len().div_ceil(policy::SCAN_VERTICES);
     points.iter().copied().step_by(stride.max(1)).collect()
 }

@@ -19,9 +19,11 @@ use rayon::prelude::*;
 use self::cost::{Cost, PLACES, Wish};
 use self::field::{Field, Raster};
 use self::law::Basis;
+use super::align::Aligner;
+use super::global_search::{interior_grid, thinned};
 use super::laws::Role;
-use super::limits::apply;
-use super::objective::{Candidate, Problem};
+use super::limits::{LimitCost, apply};
+use super::objective::{Candidate, Objective, Problem};
 use super::placement::{self, FittedGear, Similarity};
 use super::{Fit, FitError};
 use crate::geometry::{self, Point};
@@ -141,23 +143,39 @@ fn starts(
     candidates: &[Candidate],
 ) -> Vec<Path> {
     let waves = policy::POLISH_START_WAVES;
-    let placed = |c: &Candidate, angle: f64, law: &[f64], is_warped: bool| {
-        let (d, f) = (drawings[0].inward(c.driver), drawings[1].inward(c.follower));
+    let thin = (thinned(problem.driver), thinned(problem.follower));
+    let rough = problem.resampled((&thin.0, &thin.1), policy::POLISH_START_SAMPLES);
+    let placed = |centers: (Point, Point), angle: f64, law: &[f64], is_warped: bool| {
+        let (d, f) = (drawings[0].inward(centers.0), drawings[1].inward(centers.1));
         let mut x = vec![d.x, d.y, 0.0, f.x, f.y, angle];
         x.extend(Basis::new(law.len(), waves).coefficients(law));
         Path { x, value: f64::INFINITY, is_warped }
     };
-    candidates
+    let mut paths: Vec<Path> = candidates
         .par_iter()
-        .flat_map_iter(|c| {
-            let blended = placement::motion(problem, c)
-                .map(|(motion, angle)| placed(c, angle, motion.samples(), false));
-            let warped = warp::alignments(problem, wish, c)
-                .into_iter()
-                .map(|(angle, law)| placed(c, angle, &law, true));
-            blended.into_iter().chain(warped).collect::<Vec<_>>()
+        .filter_map(|c| {
+            let (motion, angle) = placement::motion(&rough, c).ok()?;
+            Some(placed((c.driver, c.follower), angle, motion.samples(), false))
         })
-        .collect()
+        .collect();
+    let centers = [
+        centers(&thin.0, candidates.iter().map(|c| c.driver)),
+        centers(&thin.1, candidates.iter().map(|c| c.follower)),
+    ];
+    let warped = warp::alignments(&rough, wish, [&centers[0], &centers[1]]);
+    paths.extend(warped.iter().map(|a| placed((a.driver, a.follower), a.angle, &a.law, true)));
+    paths
+}
+
+/// A few centres spread over a drawing and the first few of the search, for warped alignments.
+fn centers(points: &[Point], found: impl Iterator<Item = Point>) -> Vec<Point> {
+    let (mut grid, spacing) = interior_grid(points, policy::WARP_CENTERS);
+    for center in found.take(policy::WARP_CANDIDATES) {
+        if grid.iter().all(|g| (g - center).norm() > policy::WARP_APART * spacing) {
+            grid.push(center);
+        }
+    }
+    grid
 }
 
 fn measure(wish: &Wish, fit: &Fit) -> f64 {
@@ -201,7 +219,7 @@ fn delivered(
     };
     let driver = fitted(0, Role::Driver, 0.0)?;
     let follower = fitted(1, Role::Follower, x[5] - before.psi(start))?;
-    let objective = found.objective;
+    let objective = judged(problem, &driver, &follower, &limited)?;
     Ok(Fit {
         transmission: centrodes.transmission,
         raw,
@@ -212,6 +230,36 @@ fn delivered(
         pairs_scored: found.pairs_scored,
         refinement: None,
     })
+}
+
+/// E of the delivered law, with the E_s of Eq. 12 that both drawings have about the delivered axes at their best shift.
+fn judged(
+    problem: &Problem<'_>,
+    driver: &FittedGear,
+    follower: &FittedGear,
+    limited: &LimitCost,
+) -> Result<Objective, FitError> {
+    let aligner = Aligner::new(problem.samples, problem.windows());
+    let shift = |short_role: Role, long_role: Role| {
+        let center = |role| {
+            if role == Role::Driver { driver.center_in_input } else { follower.center_in_input }
+        };
+        let (short, _) = problem.whole_turn(short_role, center(short_role)).ok()?;
+        let (long, _) = problem.whole_turn(long_role, center(long_role)).ok()?;
+        let long = aligner.long(long, 1.0 / problem.ratio.value(), true);
+        Some(aligner.best(&aligner.short(short), &long, 1, &mut aligner.scratch()).shift)
+    };
+    let shift = match problem.short_role() {
+        Role::Driver => shift(Role::Driver, Role::Follower),
+        Role::Follower => shift(Role::Follower, Role::Driver),
+    };
+    let candidate = Candidate {
+        driver: driver.center_in_input,
+        follower: follower.center_in_input,
+        shift: shift.unwrap_or(0) as f64 * problem.step(),
+    };
+    let Objective { shape, folding_cost, lost_cost, .. } = problem.score(&candidate)?.objective;
+    Ok(problem.objective(shape, (folding_cost, lost_cost), limited))
 }
 
 #[cfg(test)]
