@@ -471,6 +471,15 @@ pub(crate) struct FitArgs {
     /// Both gears have exactly the same pitch curve: for one shape named twice, at ratio 1
     #[arg(long, conflicts_with_all = ["follower_axis", "orientation"])]
     pub(crate) symmetric: bool,
+    /// Move motion, axes and drawings on together after the search until the pitch curves cover the drawings best (default with the global search)
+    #[arg(long, overrides_with = "no_refine")]
+    pub(crate) refine: bool,
+    /// Keep the blend of both laws that the search gives, as the paper does
+    #[arg(long, overrides_with = "refine")]
+    pub(crate) no_refine: bool,
+    /// Weight in E of the area that cannot be seen from the axes
+    #[arg(long, default_value = "2", value_name = "WEIGHT", value_parser = units::zero_or_more, allow_hyphen_values = true)]
+    pub(crate) star_weight: f64,
 }
 
 /// What the teeth are like.

@@ -42,6 +42,9 @@ pub(super) fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
                 orientation: args.fit.orientation,
             },
             symmetric: args.fit.symmetric,
+            star_weight: args.fit.star_weight,
+            refine: args.fit.refine
+                || (!args.fit.no_refine && args.fit.search == SearchArg::Global),
             ..making.fit
         },
         ..making

@@ -51,11 +51,17 @@ pub(crate) fn summary(
                 "weight": objective.weight,
                 "limiting_cost": objective.limiting_cost,
                 "folding_cost": objective.folding_cost,
+                "lost_cost": objective.lost_cost,
                 "total": objective.total,
             });
         }
         if made.likeness.iter().any(Option::is_some) {
             value["resemblance"] = json!(made.likeness);
+            value["lost_area"] = json!(made.drawings.map(|d| d.map(|d| d.lost_area)));
+        }
+        value["max_derivative"] = json!(made.centrodes.transmission.max_derivative());
+        if let Some(refinement) = made.fit.as_ref().and_then(|f| f.refinement) {
+            value["refinement"] = json!([refinement.before, refinement.after]);
         }
         writeln!(out, "{value}")?;
         return Ok(());
@@ -243,6 +249,15 @@ fn sections(made: &Design) -> Vec<Section> {
                 format!("Likeness of the {name}"),
                 percent(*share),
                 "area of intersection over union",
+            );
+        }
+    }
+    for (drawing, name) in made.drawings.iter().zip(["driver", "follower"]) {
+        if let Some(drawing) = drawing {
+            fit = fit.noted_row(
+                format!("Area of the {name} that cannot be kept"),
+                percent(drawing.lost_area),
+                "it cannot be seen from the axis",
             );
         }
     }

@@ -416,6 +416,14 @@ impl Attempt {
                 source.limited.lean.1.to_degrees()
             ));
         }
+        let refinement = source.fit.as_ref().and_then(|fit| fit.refinement);
+        if let Some(refinement) = refinement.filter(|r| r.after < r.before) {
+            steps.insert(0, format!(
+                "refined: the area by which pitch curves and drawings differ, with the weighted torque, went from {:.1} to {:.1} %",
+                100.0 * refinement.before,
+                100.0 * refinement.after
+            ));
+        }
         let rounded = self.rounding.shape - source.limited.shape;
         if rounded > policy::LIMIT_WORTH_SAYING {
             steps.push(format!(
@@ -457,6 +465,13 @@ impl Attempt {
                     warnings.push(format!(
                         "the {name} keeps only {:.0} % of the likeness of {}: the shape is too thin or too deeply cut for a gear",
                         100.0 * share,
+                        drawn.shape.name
+                    ));
+                }
+                if drawn.gear.lost_area > policy::LOST_AREA_WORTH_SAYING {
+                    warnings.push(format!(
+                        "{:.1} % of the area of {} cannot be seen from the {name}'s axis and is filled in; a shape with shallower bays keeps more",
+                        100.0 * drawn.gear.lost_area,
                         drawn.shape.name
                     ));
                 }

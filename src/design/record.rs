@@ -71,6 +71,8 @@ struct ObjectiveRecord {
     limiting_cost: f64,
     /// What repeating one window round the larger gear changed, in the same measure.
     folding_cost: f64,
+    /// What the area that cannot be seen from the axes counts.
+    lost_cost: f64,
     /// What the search made small: all of the above.
     total: f64,
 }
@@ -82,6 +84,14 @@ struct Resemblance {
     driver_iou: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     follower_iou: Option<f64>,
+    /// Area that cannot be seen from the axis, over the drawing's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    driver_lost_area: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    follower_lost_area: Option<f64>,
+    /// `t (1 - IoU_D) + (1 - t) (1 - IoU_F) + kappa omega max psi'` before and after the refinement, if there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refinement: Option<[f64; 2]>,
 }
 
 impl Resemblance {
@@ -179,6 +189,8 @@ struct Settings {
     balance: f64,
     max_torque: Option<f64>,
     max_lean: f64,
+    refine: bool,
+    star_weight: f64,
     teeth_style: String,
     pressure_angle: f64,
     addendum: f64,
@@ -230,11 +242,19 @@ impl Record {
                 weight: objective.weight,
                 limiting_cost: objective.limiting_cost,
                 folding_cost: objective.folding_cost,
+                lost_cost: objective.lost_cost,
                 total: objective.total,
             }),
             resemblance: Resemblance {
                 driver_iou: design.likeness[0],
                 follower_iou: design.likeness[1],
+                driver_lost_area: design.drawings[0].map(|d| d.lost_area),
+                follower_lost_area: design.drawings[1].map(|d| d.lost_area),
+                refinement: design
+                    .fit
+                    .as_ref()
+                    .and_then(|f| f.refinement)
+                    .map(|r| [r.before, r.after]),
             },
             law: design.fit.is_none().then(|| Law {
                 derivative: transmission.samples().to_vec(),
@@ -266,6 +286,8 @@ impl Record {
                 balance: options.fit.balance,
                 max_torque: options.fit.limits.max_derivative,
                 max_lean: options.fit.limits.max_lean,
+                refine: options.fit.refine,
+                star_weight: options.fit.star_weight,
                 teeth_style: format!("{:?}", options.style).to_lowercase(),
                 pressure_angle: options.pressure_angle,
                 addendum: options.addendum,

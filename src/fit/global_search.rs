@@ -23,28 +23,35 @@ struct Pair {
     short: u32,
     long: u32,
     shift: u32,
-    /// Delta with the cost of folding.
+    /// Delta with the costs of folding and of what the centres lose.
     delta: f64,
     /// E without limits.
     estimate: f64,
 }
 
-/// The best centres and shift, and the number of pairs scored; none if no centre serves.
-pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
+/// The best centres and shift, then places worth refining, and the number of pairs scored; none if no centre serves.
+pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
     let (paper, paper_pairs) = paper_search::search(problem);
+    let paper = paper.first();
     // Rounding corners costs little and hardly depends on the centres, but is slow to work out: only the finalists are judged by it.
     let limits = Limits { max_curvature: None, ..*problem.limits };
     let unrounded = problem.with_limits(&limits);
-    let (mut finalists, scan_pairs) = finalists(&unrounded, paper.as_ref());
+    let (mut finalists, seeds, scan_pairs) = finalists(&unrounded, paper);
     finalists.extend(paper);
     let judged: Vec<(f64, Candidate)> =
         finalists.par_iter().map(|c| (problem.total(c), *c)).collect();
     let best = judged.into_iter().filter(|e| e.0.is_finite()).min_by(|a, b| a.0.total_cmp(&b.0));
-    (best.map(|(_, c)| c).or(paper), paper_pairs + scan_pairs)
+    let mut found: Vec<Candidate> = best.map(|(_, c)| c).into_iter().collect();
+    found.extend(paper);
+    found.extend(seeds);
+    (found, paper_pairs + scan_pairs)
 }
 
-/// The best candidates after refinement, and the pairs scored on the way.
-fn finalists(problem: &Problem<'_>, paper: Option<&Candidate>) -> (Vec<Candidate>, usize) {
+/// The best candidates after refinement, the scan's best, and the pairs scored on the way.
+fn finalists(
+    problem: &Problem<'_>,
+    paper: Option<&Candidate>,
+) -> (Vec<Candidate>, Vec<Candidate>, usize) {
     let thin = (thinned(problem.driver), thinned(problem.follower));
     let coarse_samples = (policy::SCAN_SAMPLES / problem.windows())
         .clamp(policy::SCAN_SAMPLES_LEAST, policy::SCAN_SAMPLES / 2);
@@ -58,7 +65,7 @@ fn finalists(problem: &Problem<'_>, paper: Option<&Candidate>) -> (Vec<Candidate
         scored.truncate(kept);
         scored.into_iter().map(|s| s.1).collect::<Vec<_>>()
     };
-    let mut starts = ranked(seeds, policy::REFINED_STARTS);
+    let mut starts = ranked(seeds.clone(), policy::REFINED_STARTS);
     starts.extend(paper);
     let steps = Steps {
         driver: spacing.0,
@@ -77,7 +84,7 @@ fn finalists(problem: &Problem<'_>, paper: Option<&Candidate>) -> (Vec<Candidate
     let mut all: Vec<Candidate> =
         ends.par_iter().map(|c| refined(problem, c, &fine, policy::POLISH_EVALUATIONS)).collect();
     all.extend(ends);
-    (ranked(all, policy::POLISHED), scan_pairs)
+    (ranked(all, policy::POLISHED), seeds, scan_pairs)
 }
 
 /// First steps of a refinement, drawing units and radians.
@@ -128,13 +135,19 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
     };
     let (short_grid, short_spacing) = grid(short_role);
     let (long_grid, long_spacing) = grid(long_role);
-    let shorts: Vec<(Point, ShortSpectrum)> = short_grid
+    let shorts: Vec<(Point, ShortSpectrum, f64)> = short_grid
         .into_par_iter()
-        .filter_map(|c| Some((c, aligner.short(problem.whole_turn(short_role, c).ok()?))))
+        .filter_map(|c| {
+            let (law, lost) = problem.whole_turn(short_role, c).ok()?;
+            Some((c, aligner.short(law), problem.lost_cost(short_role, lost)))
+        })
         .collect();
-    let longs: Vec<(Point, LongSpectrum)> = long_grid
+    let longs: Vec<(Point, LongSpectrum, f64)> = long_grid
         .into_par_iter()
-        .filter_map(|c| Some((c, aligner.long(problem.whole_turn(long_role, c).ok()?, mean, true))))
+        .filter_map(|c| {
+            let (law, lost) = problem.whole_turn(long_role, c).ok()?;
+            Some((c, aligner.long(law, mean, true), problem.lost_cost(long_role, lost)))
+        })
         .collect();
     let followers: Vec<Point> = match short_role {
         Role::Driver => longs.iter().map(|l| l.0).collect(),
@@ -147,15 +160,16 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
         .enumerate()
         .map_init(
             || aligner.scratch(),
-            |scratch, (i, (_, short))| {
+            |scratch, (i, (_, short, short_lost))| {
                 let mut row: Vec<Pair> = Vec::new();
-                for (j, (_, long)) in longs.iter().enumerate() {
+                for (j, (_, long, long_lost)) in longs.iter().enumerate() {
                     let follower = if short_role == Role::Driver { j } else { i };
                     let at = match shifts[follower] {
                         Some(shift) => aligner.at(short, long, shift),
                         None => aligner.best(short, long, 1, scratch),
                     };
-                    let bound = at.delta + problem.weight * mean;
+                    let delta = at.delta + short_lost + long_lost;
+                    let bound = delta + problem.weight * mean;
                     if row
                         .last()
                         .is_some_and(|r| row.len() >= policy::KEPT_PER_ROW && bound >= r.estimate)
@@ -164,13 +178,13 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
                     }
                     let blend =
                         problem.blend(&short.law, long.window(at.shift, problem.samples, mean));
-                    let estimate = at.delta + problem.weight * greatest(&blend);
+                    let estimate = delta + problem.weight * greatest(&blend);
                     let place = row.partition_point(|r| r.estimate <= estimate);
                     let pair = Pair {
                         short: i as u32,
                         long: j as u32,
                         shift: at.shift as u32,
-                        delta: at.delta,
+                        delta,
                         estimate,
                     };
                     row.insert(place, pair);
@@ -196,7 +210,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
                     longs[p.long as usize].1.window(p.shift as usize, problem.samples, mean);
                 let blend = problem.blend(&shorts[p.short as usize].1.law, window);
                 let (_, cost) = apply(&blend, problem.folds(), problem.limits).ok()?;
-                Some((problem.objective(p.delta, 0.0, &cost).total, p))
+                Some((problem.objective(p.delta, (0.0, 0.0), &cost).total, p))
             })
             .collect();
         judged.extend(scored);

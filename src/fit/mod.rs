@@ -15,6 +15,7 @@ mod mate;
 mod objective;
 mod paper_search;
 mod placement;
+mod polish;
 mod ratio;
 mod refine;
 mod symmetric;
@@ -23,6 +24,7 @@ pub use limits::{LimitCost, LimitError, Limits, apply};
 pub use mate::{Mated, mate};
 pub use objective::{Fixed, Objective};
 pub use placement::{FittedGear, Similarity};
+pub use polish::Refinement;
 pub use ratio::{Ratio, RatioError};
 pub use symmetric::{Symmetric, symmetrised};
 
@@ -57,6 +59,11 @@ pub struct FitOptions {
     pub fixed: Fixed,
     /// Whether both gears must have the same pitch curve; both shapes must then be one, and the ratio 1.
     pub symmetric: bool,
+    /// Weight in E of the shares of area that cannot be seen from the axes (see [`Objective::lost_cost`]).
+    pub star_weight: f64,
+    /// Whether motion, axes and drawings' places are moved on together after the search, until the pitch curves cover the
+    /// drawings best.
+    pub refine: bool,
 }
 
 impl Default for FitOptions {
@@ -69,6 +76,8 @@ impl Default for FitOptions {
             samples: policy::DEFAULT_FIT_SAMPLES,
             fixed: Fixed::default(),
             symmetric: false,
+            star_weight: policy::DEFAULT_STAR_WEIGHT,
+            refine: true,
         }
     }
 }
@@ -87,6 +96,12 @@ pub enum FitError {
     /// omega is negative or not finite.
     #[error("a torque weight of {weight} has no meaning; give 0 or more, 0.2 as in the paper")]
     Weight {
+        /// Weight asked for.
+        weight: f64,
+    },
+    /// The weight of lost area is negative or not finite.
+    #[error("a star weight of {weight} has no meaning; give 0 or more, 0 to count no lost area")]
+    StarWeight {
         /// Weight asked for.
         weight: f64,
     },
@@ -152,6 +167,8 @@ pub struct Fit {
     pub follower: FittedGear,
     /// Pairs of centres that were scored.
     pub pairs_scored: usize,
+    /// What the refinement changed, if there was one.
+    pub refinement: Option<Refinement>,
 }
 
 /// Finds rotation centres in both shapes and the motion that changes the shapes least.
@@ -190,7 +207,7 @@ pub fn fit(
         shapes,
         ratio,
         &options.limits,
-        (options.weight, options.balance),
+        (options.weight, options.balance, options.star_weight),
         options.samples,
     )
     .with_fixed(options.fixed);
@@ -205,12 +222,15 @@ pub fn fit(
     // Impossible limits should be said at once, not found in every candidate.
     let even = [1.0; policy::MIN_TRANSMISSION_SAMPLES];
     apply(&even, problem.folds(), &options.limits)?;
-    let (winner, pairs_scored) = match options.search {
+    let (found, pairs_scored) = match options.search {
         Search::Paper => paper_search::search(&problem),
         Search::Global => global_search::search(&problem),
     };
-    let winner = winner.ok_or(FitError::NoCenter)?;
-    placement::place(&problem, &winner, pairs_scored)
+    let winner = found.first().ok_or(FitError::NoCenter)?;
+    let fit = placement::place(&problem, winner, pairs_scored)?;
+    // What is fixed must stay where it was put.
+    let free = options.fixed == Fixed::default();
+    Ok(if options.refine && free { polish::polished(&problem, fit, &found) } else { fit })
 }
 
 fn check(ratio: Ratio, options: &FitOptions) -> Result<(), FitError> {
@@ -223,6 +243,10 @@ fn check(ratio: Ratio, options: &FitOptions) -> Result<(), FitError> {
     }
     if !options.fixed.is_finite() {
         return Err(FitError::FixedNotFinite);
+    }
+    let weight = options.star_weight;
+    if !(weight >= 0.0 && weight.is_finite()) {
+        return Err(FitError::StarWeight { weight });
     }
     let windows = ratio.driver_fold().max(ratio.follower_fold()) as usize;
     let (least, most) = (policy::FIT_SAMPLES_LEAST, policy::FIT_SAMPLES_MOST / windows);

@@ -53,6 +53,8 @@ pub(super) struct Problem<'a> {
     pub(super) weight: f64,
     /// Weight of the driver's law in Eq. 14.
     pub(super) balance: f64,
+    /// Weight of the area that cannot be seen from a centre.
+    pub(super) star_weight: f64,
     /// Samples of one period.
     pub(super) samples: usize,
     pub(super) fixed: Fixed,
@@ -63,7 +65,7 @@ pub(super) struct Problem<'a> {
 /// What a candidate is worth. `total` is what searches minimise.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Objective {
-    /// E: `shape + weight * torque + limiting_cost + folding_cost`. For K = 1 and where no limit bites it is Eq. 11.
+    /// E: `shape + weight * torque + limiting_cost + folding_cost + lost_cost`. For K = 1 and where no limit bites it is Eq. 11.
     pub total: f64,
     /// E_s, Delta of Eq. 12 and 13: integral of the squared difference of both shapes' laws over the driver's turn.
     pub shape: f64,
@@ -76,6 +78,9 @@ pub struct Objective {
     /// Change of the long gear's shape by repeating one window round it, in the measure of E_s; 0 for K = 1 and for
     /// shapes that have the symmetry. Eq. 12 sees only the window.
     pub folding_cost: f64,
+    /// What the parts that cannot be seen from the axes count: the star weight times the mean of both shares of area that
+    /// rays from the axes fill in, weighted by the balance. 0 for shapes that are star-shaped about their axes.
+    pub lost_cost: f64,
 }
 
 /// A candidate worked out.
@@ -94,7 +99,7 @@ impl<'a> Problem<'a> {
         (driver, follower): (&'a [Point], &'a [Point]),
         ratio: Ratio,
         limits: &'a Limits,
-        (weight, balance): (f64, f64),
+        (weight, balance, star_weight): (f64, f64, f64),
         samples: usize,
     ) -> Self {
         let rays = |fold: u32| directions(samples * fold as usize);
@@ -105,6 +110,7 @@ impl<'a> Problem<'a> {
             limits,
             weight,
             balance,
+            star_weight,
             samples,
             fixed: Fixed::default(),
             driver_rays: rays(ratio.driver_fold()),
@@ -118,7 +124,7 @@ impl<'a> Problem<'a> {
         shapes: (&'a [Point], &'a [Point]),
         samples: usize,
     ) -> Problem<'a> {
-        Problem::new(shapes, self.ratio, self.limits, (self.weight, self.balance), samples)
+        Problem::new(shapes, self.ratio, self.limits, self.weights(), samples)
             .with_fixed(self.fixed)
     }
 
@@ -128,7 +134,7 @@ impl<'a> Problem<'a> {
         'a: 'b,
     {
         let shapes: (&'b [Point], &'b [Point]) = (self.driver, self.follower);
-        Problem::new(shapes, self.ratio, limits, (self.weight, self.balance), self.samples)
+        Problem::new(shapes, self.ratio, limits, self.weights(), self.samples)
             .with_fixed(self.fixed)
     }
 
@@ -166,6 +172,16 @@ impl<'a> Problem<'a> {
         Some(steps.max(0.0) as usize % whole)
     }
 
+    fn weights(&self) -> (f64, f64, f64) {
+        (self.weight, self.balance, self.star_weight)
+    }
+
+    /// What the loss of a share of one drawing's area counts.
+    pub(super) fn lost_cost(&self, role: Role, lost_area: f64) -> f64 {
+        let share = if role == Role::Driver { self.balance } else { 1.0 - self.balance };
+        self.star_weight * share * lost_area
+    }
+
     /// Periods in the long gear's turn.
     pub(super) fn windows(&self) -> usize {
         self.ratio.driver_fold().max(self.ratio.follower_fold()) as usize
@@ -193,11 +209,16 @@ impl<'a> Problem<'a> {
         Law::new(points, center, rays, role, self.ratio)
     }
 
-    /// Samples of psi' over the gear's whole turn.
-    pub(super) fn whole_turn(&self, role: Role, center: Point) -> Result<Vec<f64>, PolarError> {
+    /// Samples of psi' over the gear's whole turn, and the share of area that the centre loses.
+    pub(super) fn whole_turn(
+        &self,
+        role: Role,
+        center: Point,
+    ) -> Result<(Vec<f64>, f64), PolarError> {
         let fold = if role == self.short_role() { 1 } else { self.windows() };
         let n = self.samples * fold;
-        Ok(self.law(role, center)?.sample(0.0, n, n))
+        let law = self.law(role, center)?;
+        Ok((law.sample(0.0, n, n), law.lost_area))
     }
 
     /// Eq. 14 on samples of the short law and the (scaled) window of the long one.
@@ -227,8 +248,10 @@ impl<'a> Problem<'a> {
             short.iter().zip(&window).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() * TAU / n as f64;
         let blend = self.blend(&short, window.into_iter());
         let (limited, cost) = apply(&blend, self.folds(), self.limits)?;
+        let lost = self.lost_cost(Role::Driver, driver.lost_area)
+            + self.lost_cost(Role::Follower, follower.lost_area);
         Ok(Scored {
-            objective: self.objective(delta, folding, &cost),
+            objective: self.objective(delta, (folding, lost), &cost),
             blend,
             limited,
             cost,
@@ -242,9 +265,14 @@ impl<'a> Problem<'a> {
         self.score(candidate).map_or(f64::INFINITY, |s| s.objective.total)
     }
 
-    pub(super) fn objective(&self, shape: f64, folding_cost: f64, cost: &LimitCost) -> Objective {
+    pub(super) fn objective(
+        &self,
+        shape: f64,
+        (folding_cost, lost_cost): (f64, f64),
+        cost: &LimitCost,
+    ) -> Objective {
         let torque = cost.derivative.1;
-        let total = shape + self.weight * torque + cost.shape + folding_cost;
+        let total = shape + self.weight * torque + cost.shape + folding_cost + lost_cost;
         Objective {
             total,
             shape,
@@ -252,6 +280,7 @@ impl<'a> Problem<'a> {
             weight: self.weight,
             limiting_cost: cost.shape,
             folding_cost,
+            lost_cost,
         }
     }
 }

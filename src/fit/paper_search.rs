@@ -37,8 +37,8 @@ struct Seat<T> {
     spectrum: T,
 }
 
-/// The best centres and shift, and the number of pairs scored; none if no grid centre lies in a shape.
-pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
+/// The best centres and shifts, best first, and the number of pairs scored; none if no grid centre lies in a shape.
+pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
     let aligner = Aligner::new(problem.samples, problem.windows());
     let whole = problem.samples * problem.windows();
     let stride = (whole / policy::PAPER_SHIFTS).max(1);
@@ -60,10 +60,10 @@ pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
     let mut scored = 0;
     for _ in 0..policy::PAPER_DEPTH {
         let shorts: Vec<Seat<ShortSpectrum>> = seats(&parents.0, |c| {
-            problem.whole_turn(short_role, c).ok().map(|law| aligner.short(law))
+            problem.whole_turn(short_role, c).ok().map(|(law, _)| aligner.short(law))
         });
         let longs: Vec<Seat<LongSpectrum>> = seats(&parents.1, |c| {
-            problem.whole_turn(long_role, c).ok().map(|law| aligner.long(law, mean, false))
+            problem.whole_turn(long_role, c).ok().map(|(law, _)| aligner.long(law, mean, false))
         });
         scored += shorts.len() * longs.len();
         let found: Vec<(f64, Cell, Cell, usize)> = shorts
@@ -106,7 +106,7 @@ pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
             parents = (distinct(best.iter().map(|b| b.1)), distinct(best.iter().map(|b| b.2)));
         }
     }
-    let winner = best.first().map(|(_, short, long, shift)| {
+    let candidates = best.iter().map(|(_, short, long, shift)| {
         let shift = *shift as f64 * problem.step();
         let (short, long) = (short.center(), long.center());
         problem.pinned(match short_role {
@@ -114,7 +114,7 @@ pub(super) fn search(problem: &Problem<'_>) -> (Option<Candidate>, usize) {
             Role::Follower => Candidate { driver: long, follower: short, shift },
         })
     });
-    (winner, scored)
+    (candidates.collect(), scored)
 }
 
 fn seats<T: Send>(parents: &[Cell], make: impl Fn(Point) -> Option<T> + Sync) -> Vec<Seat<T>> {

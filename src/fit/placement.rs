@@ -100,6 +100,7 @@ pub(super) fn place(
         driver,
         follower,
         pairs_scored,
+        refinement: None,
     })
 }
 
@@ -124,6 +125,15 @@ impl Begun {
         let follower_angle = follower_angle(problem, candidate, &scored, &centrodes, start);
         Ok(Self { scored, centrodes, start, follower_angle })
     }
+}
+
+/// A candidate's motion, the driver's drawing upright, and the turn of the follower's drawing.
+pub(super) fn motion(
+    problem: &Problem<'_>,
+    candidate: &Candidate,
+) -> Result<(Transmission, f64), FitError> {
+    let begun = Begun::new(problem, candidate)?;
+    Ok((begun.centrodes.transmission, begun.follower_angle))
 }
 
 /// Mean turn from the follower's drawing to its gear: at each sample the direction in the drawing that its own law puts at the

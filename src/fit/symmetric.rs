@@ -296,6 +296,7 @@ pub(super) fn fit_symmetric(shape: &Outline, options: &FitOptions) -> Result<Fit
         weight: options.weight,
         limiting_cost: seat.cost.shape,
         folding_cost: 0.0,
+        lost_cost: 0.0,
     };
     Ok(Fit {
         transmission: centrodes.transmission,
@@ -305,6 +306,7 @@ pub(super) fn fit_symmetric(shape: &Outline, options: &FitOptions) -> Result<Fit
         driver,
         follower,
         pairs_scored: scored,
+        refinement: None,
     })
 }
 

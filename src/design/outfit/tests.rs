@@ -27,7 +27,8 @@ fn pair(bore: Bore) -> Assembly {
             fittings: Fittings::default(),
         }
     };
-    let placed = |gear, x, angle: Vec<f64>| PlacedGear { gear, axis: Point::new(x, 0.0), angle };
+    let placed =
+        |gear, x, angle: Vec<f64>| PlacedGear { gear, axis: Point::new(x, 0.0), level: 0.0, angle };
     Assembly {
         gears: vec![
             placed(gear("driver", 0.0), 0.0, vec![0.0, TAU]),
@@ -35,6 +36,8 @@ fn pair(bore: Bore) -> Assembly {
         ],
         driver_angle: vec![0.0, TAU],
         thickness: 8.0,
+        meshes: vec![[0, 1]],
+        axles: Vec::new(),
         fixtures: Vec::new(),
     }
 }

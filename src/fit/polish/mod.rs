@@ -1,0 +1,266 @@
+//! Refinement: the pair's motion and both drawings' places moved together until the pitch curves cover the drawings best.
+//!
+//! The searches blend two laws that one shift aligned. Here psi' is a [`law`] of its own, so both pitch curves come from one
+//! psi and mate exactly whatever the numbers, and what is made small ([`cost`]) is the area by which pitch curves and
+//! drawings differ. The steps (`docs/refinement.md`):
+//! 1. starts: the searches' best pairs of centres with their blended laws, and the same centres with a warped alignment
+//!    ([`warp`]);
+//! 2. each start is improved by L-BFGS on widely blurred drawings and few waves, the better ones on sharper drawings and
+//!    more waves;
+//! 3. the ends are put under the limits and measured on polygons; the best is taken if it beats what the search gave.
+
+mod cost;
+mod field;
+mod law;
+mod warp;
+
+use rayon::prelude::*;
+
+use self::cost::{Cost, PLACES, Wish};
+use self::field::{Field, Raster};
+use self::law::Basis;
+use super::align::Aligner;
+use super::global_search::{interior_grid, thinned};
+use super::laws::Role;
+use super::limits::{LimitCost, apply};
+use super::objective::{Candidate, Objective, Problem};
+use super::placement::{self, FittedGear, Similarity};
+use super::{Fit, FitError};
+use crate::geometry::{self, Point};
+use crate::pitch::{Centrodes, Transmission};
+use crate::policy;
+
+/// What a refinement changed; the measure is `t (1 - IoU_D) + (1 - t) (1 - IoU_F) + kappa omega max psi'`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refinement {
+    /// The measure of what the search gave.
+    pub before: f64,
+    /// The measure of what is delivered, not above `before`.
+    pub after: f64,
+    /// Places from which the refinement started.
+    pub starts: usize,
+    /// Whether a warped alignment won.
+    pub is_warped: bool,
+}
+
+/// A drawing moved to its centroid and scaled to area 1.
+struct Drawing {
+    centroid: Point,
+    size: f64,
+    points: Vec<Point>,
+}
+
+impl Drawing {
+    fn new(points: &[Point]) -> Self {
+        let (centroid, size) = (geometry::centroid(points), geometry::area(points).sqrt());
+        let points = points.iter().map(|p| Point::from((p - centroid) / size)).collect();
+        Self { centroid, size, points }
+    }
+
+    fn inward(&self, p: Point) -> Point {
+        Point::from((p - self.centroid) / self.size)
+    }
+
+    fn outward(&self, p: Point) -> Point {
+        self.centroid + self.size * p.coords
+    }
+}
+
+/// A point of the search space on its way.
+#[derive(Clone, Debug)]
+struct Path {
+    x: Vec<f64>,
+    value: f64,
+    is_warped: bool,
+}
+
+/// The refined pair, or the given one where nothing better is found.
+pub(super) fn polished(problem: &Problem<'_>, found: Fit, candidates: &[Candidate]) -> Fit {
+    let drawings = [Drawing::new(problem.driver), Drawing::new(problem.follower)];
+    let wish = Wish {
+        ratio: problem.ratio,
+        balance: problem.balance,
+        torque: policy::POLISH_TORQUE * problem.weight,
+        most: problem.limits.max_derivative.unwrap_or(f64::INFINITY),
+        steepest: problem.limits.max_lean.tan(),
+    };
+    let rasters = [0, 1].map(|i| Raster::new(&drawings[i].points));
+    let mut paths = starts(problem, &wish, &drawings, candidates);
+    let count = paths.len();
+    let folds = problem.windows();
+    for stage in &policy::POLISH_STAGES {
+        let places = (stage.places / folds).max(4 * stage.waves).max(policy::FIT_SAMPLES_LEAST);
+        let basis = Basis::new(places, stage.waves);
+        let fields: [Field; 2] = [0, 1].map(|i| rasters[i].field(stage.blur));
+        paths = paths
+            .into_par_iter()
+            .map(|path| {
+                let mut x = path.x[..PLACES].to_vec();
+                x.extend(law::with_waves(&path.x[PLACES..], stage.waves));
+                let (x, value) =
+                    Cost::new(&wish, &basis, [&fields[0], &fields[1]]).improved(&x, stage.rounds);
+                Path { x, value, ..path }
+            })
+            .collect();
+        paths.sort_by(|a, b| a.value.total_cmp(&b.value));
+        paths = distinct(paths, stage.kept);
+    }
+    let before = measure(&wish, &found);
+    let ends: Vec<(f64, bool, Fit)> = paths
+        .par_iter()
+        .filter_map(|path| {
+            let fit = delivered(problem, &wish, &drawings, path, &found).ok()?;
+            Some((measure(&wish, &fit), path.is_warped, fit))
+        })
+        .collect();
+    let best = ends.into_iter().filter(|e| e.0 < before).min_by(|a, b| a.0.total_cmp(&b.0));
+    let (after, is_warped, fit) = best.unwrap_or((before, false, found));
+    Fit { refinement: Some(Refinement { before, after, starts: count, is_warped }), ..fit }
+}
+
+/// The best few that differ.
+fn distinct(paths: Vec<Path>, kept: usize) -> Vec<Path> {
+    let mut out: Vec<Path> = Vec::new();
+    for path in paths {
+        let twin = out.iter().any(|o| {
+            let apart = o.x.iter().zip(&path.x).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            apart < policy::POLISH_TWINS
+        });
+        if path.value.is_finite() && !twin {
+            out.push(path);
+        }
+        if out.len() == kept {
+            break;
+        }
+    }
+    out
+}
+
+fn starts(
+    problem: &Problem<'_>,
+    wish: &Wish,
+    drawings: &[Drawing; 2],
+    candidates: &[Candidate],
+) -> Vec<Path> {
+    let waves = policy::POLISH_START_WAVES;
+    let thin = (thinned(problem.driver), thinned(problem.follower));
+    let rough = problem.resampled((&thin.0, &thin.1), policy::POLISH_START_SAMPLES);
+    let placed = |centers: (Point, Point), angle: f64, law: &[f64], is_warped: bool| {
+        let (d, f) = (drawings[0].inward(centers.0), drawings[1].inward(centers.1));
+        let mut x = vec![d.x, d.y, 0.0, f.x, f.y, angle];
+        x.extend(Basis::new(law.len(), waves).coefficients(law));
+        Path { x, value: f64::INFINITY, is_warped }
+    };
+    let mut paths: Vec<Path> = candidates
+        .par_iter()
+        .filter_map(|c| {
+            let (motion, angle) = placement::motion(&rough, c).ok()?;
+            Some(placed((c.driver, c.follower), angle, motion.samples(), false))
+        })
+        .collect();
+    let centers = [
+        centers(&thin.0, candidates.iter().map(|c| c.driver)),
+        centers(&thin.1, candidates.iter().map(|c| c.follower)),
+    ];
+    let warped = warp::alignments(&rough, wish, [&centers[0], &centers[1]]);
+    paths.extend(warped.iter().map(|a| placed((a.driver, a.follower), a.angle, &a.law, true)));
+    paths
+}
+
+/// A few centres spread over a drawing and the first few of the search, for warped alignments.
+fn centers(points: &[Point], found: impl Iterator<Item = Point>) -> Vec<Point> {
+    let (mut grid, spacing) = interior_grid(points, policy::WARP_CENTERS);
+    for center in found.take(policy::WARP_CANDIDATES) {
+        if grid.iter().all(|g| (g - center).norm() > policy::WARP_APART * spacing) {
+            grid.push(center);
+        }
+    }
+    grid
+}
+
+fn measure(wish: &Wish, fit: &Fit) -> f64 {
+    wish.balance * (1.0 - fit.driver.iou)
+        + (1.0 - wish.balance) * (1.0 - fit.follower.iou)
+        + wish.torque * fit.transmission.max_derivative()
+}
+
+/// The end of a path as a fit: driver's drawing upright, limits kept.
+fn delivered(
+    problem: &Problem<'_>,
+    wish: &Wish,
+    drawings: &[Drawing; 2],
+    path: &Path,
+    found: &Fit,
+) -> Result<Fit, FitError> {
+    let (x, coefficients) = path.x.split_at(PLACES);
+    let folds = problem.folds();
+    let series = law::sampled(coefficients, 0.0, wish.mean(), problem.samples);
+    let before = Transmission::from_derivative(&series, folds.0, folds.1)?;
+    // Starting at driver angle -angle stands the driver's drawing upright.
+    let start = -x[2];
+    let raw = law::sampled(coefficients, start / wish.period(), wish.mean(), problem.samples);
+    let (law, limited) = apply(&raw, folds, problem.limits)?;
+    let transmission = Transmission::from_derivative(&law, folds.0, folds.1)?;
+    let centrodes = Centrodes { transmission, center_distance: 1.0 };
+    let count = policy::PLACEMENT_SAMPLES;
+    let curves = [
+        centrodes.driver_curve(count * folds.0 as usize),
+        centrodes.follower_curve(count * folds.1 as usize),
+    ];
+    let fitted = |i: usize, role: Role, angle: f64| -> Result<FittedGear, FitError> {
+        let center = drawings[i].outward(Point::new(x[3 * i], x[3 * i + 1]));
+        let lost_area = problem.law(role, center)?.lost_area;
+        let scale = geometry::area(&curves[i]).sqrt() / drawings[i].size;
+        let placement = Similarity { center, angle, scale };
+        let input = if i == 0 { problem.driver } else { problem.follower };
+        let placed: Vec<Point> = input.iter().map(|p| placement.apply(*p)).collect();
+        let iou = geometry::intersection_over_union(&curves[i], &placed);
+        Ok(FittedGear { center_in_input: center, placement, iou, lost_area })
+    };
+    let driver = fitted(0, Role::Driver, 0.0)?;
+    let follower = fitted(1, Role::Follower, x[5] - before.psi(start))?;
+    let objective = judged(problem, &driver, &follower, &limited)?;
+    Ok(Fit {
+        transmission: centrodes.transmission,
+        raw,
+        objective,
+        limited,
+        driver,
+        follower,
+        pairs_scored: found.pairs_scored,
+        refinement: None,
+    })
+}
+
+/// E of the delivered law, with the E_s of Eq. 12 that both drawings have about the delivered axes at their best shift.
+fn judged(
+    problem: &Problem<'_>,
+    driver: &FittedGear,
+    follower: &FittedGear,
+    limited: &LimitCost,
+) -> Result<Objective, FitError> {
+    let aligner = Aligner::new(problem.samples, problem.windows());
+    let shift = |short_role: Role, long_role: Role| {
+        let center = |role| {
+            if role == Role::Driver { driver.center_in_input } else { follower.center_in_input }
+        };
+        let (short, _) = problem.whole_turn(short_role, center(short_role)).ok()?;
+        let (long, _) = problem.whole_turn(long_role, center(long_role)).ok()?;
+        let long = aligner.long(long, 1.0 / problem.ratio.value(), true);
+        Some(aligner.best(&aligner.short(short), &long, 1, &mut aligner.scratch()).shift)
+    };
+    let shift = match problem.short_role() {
+        Role::Driver => shift(Role::Driver, Role::Follower),
+        Role::Follower => shift(Role::Follower, Role::Driver),
+    };
+    let candidate = Candidate {
+        driver: driver.center_in_input,
+        follower: follower.center_in_input,
+        shift: shift.unwrap_or(0) as f64 * problem.step(),
+    };
+    let Objective { shape, folding_cost, lost_cost, .. } = problem.score(&candidate)?.objective;
+    Ok(problem.objective(shape, (folding_cost, lost_cost), limited))
+}
+
+#[cfg(test)]
+mod tests;
