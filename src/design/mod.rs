@@ -182,7 +182,7 @@ pub fn from_motion(
 
 /// Designs a gear from one shape, and computes its mate.
 ///
-/// The shape turns about [`fit::FitOptions::driver_axis`], or about the point inside it that costs least: bounds on lean
+/// The shape turns about [`fit::Fixed::driver_axis`], or about the point inside it that costs least: bounds on lean
 /// and torque, greatest torque, and parts hidden from the axis.
 ///
 /// # Errors

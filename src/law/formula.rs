@@ -87,9 +87,7 @@ fn tidied(text: &str) -> Result<String, LawError> {
                 reason: format!("{number:?} is no number"),
             })?;
             // The parser does not know exponents.
-            out.push_str(
-                &format!("{value:.400}").trim_end_matches('0').trim_end_matches('.').to_owned(),
-            );
+            out.push_str(format!("{value:.400}").trim_end_matches('0').trim_end_matches('.'));
             (i, prefix) = (end, false);
             continue;
         }

@@ -91,18 +91,18 @@ pub fn from_function(
     let largest = samples.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     // Where it should have repeated: within the turn of the driver, and after it.
     let fold = options.ratio.driver_fold() as usize;
-    for i in 0..n {
+    for (i, &now) in samples.iter().enumerate() {
         let here = i as f64 * step;
         let again = value(here + period * (1 + i % fold) as f64);
         // Written so that a value that is not a number is refused too.
-        let repeats = (again - samples[i]).abs() <= policy::LAW_REPEATS_WITHIN * largest;
+        let repeats = (again - now).abs() <= policy::LAW_REPEATS_WITHIN * largest;
         if !repeats {
             return Err(LawError::NotPeriodic {
                 quantity,
                 folds: options.ratio.driver_fold(),
                 turns: (options.ratio.follower_fold(), options.ratio.driver_fold()),
                 at: here,
-                values: (samples[i], again),
+                values: (now, again),
             });
         }
     }
