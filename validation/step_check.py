@@ -2,7 +2,7 @@
 """Read pair.step back with OpenCascade and judge it (pip install cadquery-ocp).
 
 Two named, coloured parts in an assembly at the right distance; each one valid closed solid; volume within 1e-4 of
-(outline - bore) x thickness; fewer than 12 faces a tooth; under 3 MB for 32 teeth.
+(outline - bore - other holes) x thickness and the hub; fewer than 12 faces a tooth; under 3 MB for 32 teeth.
 
 Exit 0 when all holds, 1 when something does not, 2 when the folder cannot be used.
 """
@@ -113,7 +113,12 @@ def main(folder):
         properties = GProp_GProps()
         BRepGProp.VolumeProperties_s(shape, properties)
         bore = hole_area(data["bore"]) if data["bore"] else 0.0
-        wanted = (area(data["outline"]) - bore) * record["thickness"]
+        fittings = data.get("fittings") or {}
+        holes = sum(hole_area(opening["ring"]) for opening in fittings.get("openings", []))
+        wanted = (area(data["outline"]) - bore - holes) * record["thickness"]
+        hub = fittings.get("hub")
+        if hub:
+            wanted += (math.pi * hub["radius"] ** 2 - bore) * hub["height"]
         off = properties.Mass() / wanted - 1
         if not abs(off) < VOLUME:
             faults.append(f"{gear}: volume off by {off:.1e}")
@@ -133,7 +138,8 @@ def main(folder):
         BRepBndLib.AddOptimal_s(shape, box, False, False)
         low, high = box.CornerMin(), box.CornerMax()
         outline = np.asarray(data["outline"])
-        extent = [*outline.min(0), 0.0, *outline.max(0), record["thickness"]]
+        top = record["thickness"] + (hub["height"] if hub else 0.0)
+        extent = [*outline.min(0), 0.0, *outline.max(0), top]
         if np.abs(np.subtract([f() for p in (low, high) for f in (p.X, p.Y, p.Z)], extent)).max() > 0.02:
             faults.append(f"{gear}: extent differs")
         said.append(f"{gear} {faces:.1f} faces a tooth, volume {off:+.1e}")
