@@ -55,9 +55,10 @@ impl Raster {
             let row = &mut covered[k / lines * columns..][..columns];
             for pair in line.chunks_exact(2) {
                 let (from, to) = (pair[0], pair[1]);
-                for i in from as usize..=(to as usize).min(columns - 1) {
+                let (first, last) = (from as usize, (to as usize).min(columns - 1));
+                for (i, cell) in row.iter_mut().enumerate().take(last + 1).skip(first) {
                     let shared = (to.min(i as f64 + 1.0) - from.max(i as f64)).max(0.0);
-                    row[i] += shared / lines as f64;
+                    *cell += shared / lines as f64;
                 }
             }
         }
