@@ -45,6 +45,9 @@ impl Wish {
     }
 }
 
+/// A point with its value and gradient.
+type Known = (Vec<f64>, f64, Vec<f64>);
+
 /// The cost at one resolution.
 pub(super) struct Cost<'a> {
     pub(super) wish: &'a Wish,
@@ -52,7 +55,7 @@ pub(super) struct Cost<'a> {
     /// Of the driver's and the follower's drawing.
     pub(super) fields: [&'a Field; 2],
     /// The last point asked for: the optimiser wants value and gradient one after the other.
-    last: RefCell<Option<(Vec<f64>, f64, Vec<f64>)>>,
+    last: RefCell<Option<Known>>,
 }
 
 impl<'a> Cost<'a> {
