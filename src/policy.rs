@@ -841,6 +841,9 @@ pub const TRAIN_REPEAT: f64 = 1e-7;
 pub const COLLISION_POSES: usize = 240;
 /// Share of a pitch that the play of a pair takes up where a ring closes: a tenth of the usual play of two pitches in a hundred.
 pub const RING_SHARE_OF_PITCH: f64 = 0.002;
+/// Sharpest turn from one line of centres to the next in a ring, radians (100 degrees): beyond it the gears on both sides of
+/// a corner come closer than one and a quarter of their distance from it.
+pub const RING_SHARPEST_TURN: f64 = 100.0 * std::f64::consts::PI / 180.0;
 /// Poses at which the closing of a ring is measured.
 pub const RING_SAMPLES: usize = 96;
 /// Shapes of ring that are tried, from one extreme of its corners' difference to the other.

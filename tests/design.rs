@@ -121,9 +121,11 @@ impl Made {
         let [total, shape, torque, weight] =
             ["E", "shape", "torque", "weight"].map(|n| self.number(&format!("/objective/{n}")));
         assert!((total - shape - weight * torque).abs() < 1e-9 * total, "E is Eq. 11");
-        let [limiting, folding, search] = ["limiting_cost", "folding_cost", "total"]
-            .map(|n| self.number(&format!("/objective/{n}")));
-        assert!((search - total - limiting - folding).abs() < 1e-9 * search, "the costs add up");
+        let [limiting, folding, lost, search] =
+            ["limiting_cost", "folding_cost", "lost_cost", "total"]
+                .map(|n| self.number(&format!("/objective/{n}")));
+        let sum = total + limiting + folding + lost;
+        assert!((search - sum).abs() < 1e-9 * search, "the costs add up");
     }
 
     fn pitch_curves_roll(&self, k: f64) {

@@ -122,7 +122,7 @@ fn what_cannot_be_a_train_is_refused_in_a_sentence() {
     bench.refuses(&pair, &["--gears", "1"], &["1 gears", "2 to"]);
     bench.refuses(&pair, &["--repeat", "4000"], &["8000 gears"]);
     bench.refuses(&pair, &["--gears", "5", "--layout", "ring"], &["5 gears", "even"]);
-    bench.refuses(&pair, &["--repeat", "3", "--layout", "ring"], &["does not close", "degrees"]);
+    bench.refuses(&pair, &["--repeat", "2", "--layout", "ring"], &["does not close", "degrees"]);
     bench.refuses(&pair, &["--gears", "4", "--layout", "arc", "--bend", "140"], &["collide"]);
     bench.refuses(&bench.at("nothing"), &[], &["nothing", "centrode design"]);
     let plan = bench.at("bad.toml");

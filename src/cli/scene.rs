@@ -202,7 +202,10 @@ fn name_of(arg: &Arg) -> String {
 
 fn table(heading: &str) -> String {
     let known = TABLES.iter().find(|(h, _)| *h == heading).map(|(_, t)| (*t).to_owned());
-    known.unwrap_or_else(|| heading.split_whitespace().next().unwrap_or("more").to_lowercase())
+    known.unwrap_or_else(|| {
+        let first = heading.split(|c: char| !c.is_alphanumeric()).next().unwrap_or("more");
+        first.to_lowercase()
+    })
 }
 
 fn kind(arg: &Arg) -> Kind {

@@ -274,7 +274,7 @@ mod tests {
         fittings.marks.push(crate::assembly::Mark { name, face, height: -0.4 });
         let plain = LaserSvg::default().sheet(&assembly).unwrap();
         let layer = |name: &str| plain.split(&format!("id=\"{name}\"")).nth(1).unwrap().to_owned();
-        assert!(layer("cut-bores").split("cut-outlines").next().unwrap().contains("r=\"3.0"));
+        assert!(layer("cut-bores").split("cut-outlines").next().unwrap().contains("r=\"2.99"));
         assert!(layer("engrave").split("cut-bores").next().unwrap().contains("M -12.0"));
         let gear = &mut assembly.gears[0].gear;
         gear.bore = None;

@@ -16,7 +16,8 @@ use entities::{Entities, Id, text};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// `pair.step`: one product per gear with its name and colour, placed in mesh, mm.
+/// `pair.step`: one product per gear with its name and colour, placed in mesh, mm. A gear has its bore, its
+/// other holes and its hub; marks, bevels and holes for set screws are left to the solids.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// Greatest distance between a vertex of the outline and its curve, mm.
