@@ -428,26 +428,26 @@ impl TrainPlan {
     /// As for [`TrainPlan::chain`].
     pub fn ring(pair: &PairModel, count: usize, thickness: f64) -> Result<Self, TrainError> {
         let made = |skew: f64| Self::chain(pair.clone(), count, Layout::Ring(skew), thickness);
-        let straight = made(0.0)?;
         let even = TAU / count as f64;
         // Sharper corners push the gears beside them into each other.
         let most = even.min(policy::RING_SHARPEST_TURN - even).max(0.0);
-        let skews: Vec<f64> = (0..policy::RING_TRIES)
-            .map(|i| most * (2.0 * i as f64 / (policy::RING_TRIES - 1) as f64 - 1.0))
-            .collect();
-        let best = skews
-            .par_iter()
-            .map(|&skew| {
-                let plan = made(skew)?;
-                Ok((plan.openness(), skew))
-            })
-            .collect::<Result<Vec<_>, TrainError>>()?
-            .into_iter()
-            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.abs().total_cmp(&b.1.abs())));
-        match best {
-            Some((_, skew)) => made(skew),
-            None => Ok(straight),
+        let (mut middle, mut reach) = (0.0, most);
+        // A second look between the neighbours of the best finds the place exactly enough.
+        for _ in 0..2 {
+            let step = 2.0 * reach / (policy::RING_TRIES - 1) as f64;
+            let skews: Vec<f64> = (0..policy::RING_TRIES)
+                .map(|i| (middle - reach + step * i as f64).clamp(-most, most))
+                .collect();
+            let best = skews
+                .par_iter()
+                .map(|&skew| Ok((made(skew)?.openness(), skew)))
+                .collect::<Result<Vec<_>, TrainError>>()?
+                .into_iter()
+                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.abs().total_cmp(&b.1.abs())));
+            middle = best.map_or(middle, |b| b.1);
+            reach = step;
         }
+        made(middle)
     }
 
     /// Greatest opening of the closing meshes, radians.
