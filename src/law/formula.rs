@@ -171,7 +171,8 @@ mod tests {
 
     #[test]
     fn formulas_mean_what_they_say() {
-        let cases: [(&str, fn(f64) -> f64); 18] = [
+        type Case = (&'static str, fn(f64) -> f64);
+        let cases: [Case; 18] = [
             ("1", |_| 1.0),
             ("1 + 0.3*cos(2*phi)", |x| 1.0 + 0.3 * (2.0 * x).cos()),
             ("-phi^2", |x| -(x * x)),

@@ -561,7 +561,7 @@ mod tests {
         let run = simulate_train(&train.assembly, &options).unwrap();
         assert_eq!(run.stopped, None);
         let play = train_play(&train.assembly, 24).unwrap();
-        let (faults, _) = judge_train(&train.assembly, &play, &[run.clone()]);
+        let (faults, _) = judge_train(&train.assembly, &play, std::slice::from_ref(&run));
         assert!(faults.is_empty(), "{faults:?}");
         let mean = run.steps.iter().map(|s| s.torque).sum::<f64>() / run.steps.len() as f64;
         assert!((mean / options.load - 1.0).abs() < 0.02, "{mean}");
