@@ -56,8 +56,8 @@ pub const CAP_LEAST_RISE: f64 = 0.2;
 pub const CAP_STEEPEST: f64 = 2.0;
 /// Share of a tip's half land that the sloping sides of its cap may use up.
 pub const CAP_LAND_USED: f64 = 0.7;
-/// Rays on which a root is found before its chords are judged.
-pub const ROOT_FIRST_RAYS: usize = 7;
+/// Rays on which a root is found before its chords are judged in their middles: enough that none hides a double bend.
+pub const ROOT_FIRST_RAYS: usize = 13;
 /// Greatest distance of a root's chord from the root, in modules: roots carry nothing, but drawings and
 /// solids made of true curves should agree with the outline in their area.
 pub const ROOT_CHORD: f64 = 1.5e-3;
