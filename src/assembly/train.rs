@@ -694,7 +694,7 @@ mod tests {
         assert_eq!(train.assembly.meshes.last(), Some(&[0, 5]));
         let error = TrainPlan::ring(&wavy(0.3, 1.0), 6, 8.0).unwrap().assemble().unwrap_err();
         match error {
-            TrainError::Open { off, allowed } => assert!(off > allowed && off < 1.0),
+            TrainError::Open { off, allowed } => assert!(off > allowed && off <= PI),
             other => panic!("{other}"),
         }
         assert!(matches!(TrainPlan::ring(&round, 5, 8.0), Err(TrainError::RingCount { count: 5 })));
