@@ -292,6 +292,12 @@ pub(crate) struct MotionArgs {
     /// Scale psi' until it closes instead of refusing a law that does not
     #[arg(long, conflicts_with_all = ["centrode", "preset"])]
     pub(crate) normalise: bool,
+    /// Begin of the part of a turn for which LAW is wanted, degrees of the driver; the rest closes the gears smoothly
+    #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true, requires = "to", conflicts_with_all = ["centrode", "preset", "normalise"])]
+    pub(crate) from: Option<f64>,
+    /// End of that part, degrees of the driver
+    #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true, requires = "from")]
+    pub(crate) to: Option<f64>,
     #[command(flatten)]
     pub(crate) pair: PairArgs,
 }
@@ -356,33 +362,16 @@ pub(crate) struct DesignArgs {
     /// Shape of the follower, likewise
     #[arg(value_name = "FOLLOWER", value_hint = ValueHint::FilePath)]
     pub(crate) follower: String,
-    /// Folder for the files
-    #[arg(short, long, value_name = "FOLDER")]
-    pub(crate) output: PathBuf,
     /// Turns of the driver for one turn of the follower: a whole number or 1/whole
     #[arg(short = 'k', long, default_value = "1", value_name = "K", allow_hyphen_values = true)]
     pub(crate) ratio: String,
-    /// Print the summary as JSON on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-
+    // First, for its own arguments would go under the heading of whatever is flattened before them.
+    #[command(flatten)]
+    pub(crate) pair: PairArgs,
     #[command(flatten)]
     pub(crate) shape: ShapeArgs,
     #[command(flatten)]
     pub(crate) fit: FitArgs,
-    #[command(flatten)]
-    pub(crate) teeth: TeethArgs,
-    #[command(flatten)]
-    pub(crate) size: SizeArgs,
-    #[command(flatten)]
-    pub(crate) outfit: OutfitArgs,
-    #[command(flatten)]
-    pub(crate) formats: ExportArgs,
-    /// Do not run the pair as rigid bodies
-    #[arg(long, help_heading = "Simulation")]
-    pub(crate) no_simulate: bool,
-    #[command(flatten)]
-    pub(crate) run: RunArgs,
 }
 
 /// How a pair is run as rigid bodies.

@@ -17,12 +17,12 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     let (driver, follower) = (args.shape.read(&args.driver)?, args.shape.read(&args.follower)?);
     progress.doing(format!("fitting {} to {}", driver.name, follower.name));
     let made = design(&driver, &follower, &options)?;
-    args.making().deliver(&made, &progress, start)
+    args.pair.making().deliver(&made, &progress, start)
 }
 
 pub(super) fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {
     let ratio: Ratio = args.ratio.parse()?;
-    let making = args.making().options(ratio);
+    let making = args.pair.making().options(ratio);
     Ok(DesignOptions {
         fit: FitOptions {
             search: match args.fit.search {

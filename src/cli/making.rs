@@ -14,7 +14,7 @@ use centrode::solid::{Mesh, assembly_solids};
 use centrode::strength::Load;
 
 use super::args::{
-    CarverArg, DesignArgs, ExportArgs, PairArgs, RunArgs, ShapeArgs, SizeArgs, StyleArg, TeethArgs,
+    CarverArg, ExportArgs, PairArgs, RunArgs, ShapeArgs, SizeArgs, StyleArg, TeethArgs,
 };
 use super::files::{write_parts, write_text};
 use super::outfit::OutfitArgs;
@@ -32,21 +32,6 @@ pub(crate) struct Making<'a> {
     formats: &'a ExportArgs,
     no_simulate: bool,
     run: &'a RunArgs,
-}
-
-impl DesignArgs {
-    pub(crate) fn making(&self) -> Making<'_> {
-        Making {
-            output: &self.output,
-            json: self.json,
-            teeth: &self.teeth,
-            size: &self.size,
-            outfit: &self.outfit,
-            formats: &self.formats,
-            no_simulate: self.no_simulate,
-            run: &self.run,
-        }
-    }
 }
 
 impl PairArgs {

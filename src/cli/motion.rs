@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use anyhow::{Context, anyhow, bail};
 use centrode::design::from_motion;
-use centrode::law::{Formula, LawOptions, Quantity, Table, from_function};
+use centrode::law::{Formula, LawOptions, Quantity, Segment, Table, from_function, from_segment};
 use centrode::pitch::Transmission;
 use centrode::policy;
 
@@ -44,17 +44,24 @@ fn motion(args: &MotionArgs) -> anyhow::Result<(Transmission, [String; 2])> {
         }
     };
     let options = with(quantity);
+    let segment = args.from.zip(args.to).map(|(from, to)| Segment { from, to });
     let path = Path::new(text);
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if TABLES.contains(&extension.as_str()) {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let made = Table::parse(&read(path)?, quantity)
-            .and_then(|table| table.transmission(&options))
+            .and_then(|table| match segment {
+                Some(segment) => table.segment_transmission(segment, &options),
+                None => table.transmission(&options),
+            })
             .with_context(|| path.display().to_string())?;
         return Ok((made, [stem, "its follower".to_owned()]));
     }
     let formula = Formula::parse(text)?;
-    let made = from_function(|phi| formula.at(phi), &options)?;
+    let made = match segment {
+        Some(segment) => from_segment(|phi| formula.at(phi), segment, &options)?,
+        None => from_function(|phi| formula.at(phi), &options)?,
+    };
     Ok((made, [format!("{sign} = {}", text.trim()), "its follower".to_owned()]))
 }
 

@@ -27,9 +27,9 @@ pub(super) struct Settings {
 }
 
 impl Settings {
-    /// The same with the lean held `k` steps below what these allow.
-    pub(super) fn with_less_lean(&self, k: usize) -> Self {
-        Self { max_lean: self.max_lean - k as f64 * policy::LEAN_REPAIR, exact: false, ..*self }
+    /// The same with the lean held `less` radians below what these allow.
+    pub(super) fn with_less_lean(&self, less: f64) -> Self {
+        Self { max_lean: self.max_lean - less, exact: false, ..*self }
     }
 
     /// Steepest lean allowed, radians.

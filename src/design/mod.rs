@@ -110,6 +110,15 @@ impl Design {
         Ok(())
     }
 
+    fn simulate_if_sound(&mut self, runs: &[DynamicsOptions]) -> Result<(), DynamicsError> {
+        if self.is_sound() { self.simulate(runs) } else { Ok(()) }
+    }
+
+    /// Whether it failed as rigid bodies and may be made otherwise.
+    fn can_be_repaired(&self, options: &DesignOptions) -> bool {
+        options.repair && self.proof.is_some() && !self.is_sound()
+    }
+
     /// How many teeth of one period, both gears together, are full, steeper, shortened, blunted.
     #[must_use]
     pub fn tooth_tally(&self) -> [usize; 4] {
@@ -141,8 +150,36 @@ pub fn design(
     if let Scale::CenterDistance(distance) = options.scale {
         options.outfit.check_distance(distance)?;
     }
-    let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
-    made_from(&Source::fitted([driver, follower], fit, options.fit.symmetric), options)
+    let made = |max_lean: f64| -> Result<Design, DesignError> {
+        let limits = fit::Limits { max_lean, ..options.fit.limits };
+        let options = DesignOptions {
+            fit: fit::FitOptions { limits, ..options.fit.clone() },
+            ..options.clone()
+        };
+        let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
+        let source = Source::fitted([driver, follower], fit, options.fit.symmetric);
+        let mut made = tried(&source, &options)?.made;
+        made.simulate_if_sound(&options.runs)?;
+        Ok(made)
+    };
+    let asked = options.fit.limits.max_lean;
+    let mut best = made(asked)?;
+    // Another motion with less lean, sought as the first was.
+    for less in policy::PROOF_REPAIRS {
+        if !best.can_be_repaired(options) {
+            break;
+        }
+        let max_lean = asked - less;
+        let said = lean_held(max_lean, &best.faults);
+        if let Ok(mut next) = made(max_lean)
+            && next.is_sound()
+        {
+            next.steps.push(said);
+            next.options = options.clone();
+            best = next;
+        }
+    }
+    fitted_out(best, options)
 }
 
 /// Designs a pair of gears that moves as `transmission` says, at the size that `options` give.
@@ -193,8 +230,14 @@ pub fn mate(shape: &Shape, options: &DesignOptions) -> Result<Design, DesignErro
     made_from(&Source::mated(shape, mated), options)
 }
 
-/// Teeth, analysis, repairs, proof.
-fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, DesignError> {
+/// A pair before its proof, and the settings it was made with.
+struct Tried {
+    made: Design,
+    settings: Settings,
+}
+
+/// Teeth, analysis, repairs.
+fn tried(source: &Source<'_>, options: &DesignOptions) -> Result<Tried, DesignError> {
     let mut steps = Vec::new();
     let mut settings = Settings::first(source, options)?;
     let mut best = Attempt::make(source, options, settings)?;
@@ -220,31 +263,43 @@ fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, Des
         }
     }
     let settings = best.settings();
-    let best = best.confirmed(options)?;
-    let mut made = best.finish(source, options, steps.clone())?;
-    if made.is_sound() {
-        made.simulate(&options.runs)?;
-    }
-    for k in 1..=if options.repair && made.proof.is_some() { policy::PROOF_REPAIRS } else { 0 } {
-        if made.is_sound() {
+    let made = best.confirmed(options)?.finish(source, options, steps)?;
+    Ok(Tried { made, settings })
+}
+
+/// Teeth, analysis, repairs, proof: a motion that fails as rigid bodies is held to less lean.
+fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, DesignError> {
+    let Tried { made: mut best, settings } = tried(source, options)?;
+    best.simulate_if_sound(&options.runs)?;
+    let steps = best.steps.clone();
+    for less in policy::PROOF_REPAIRS {
+        if !best.can_be_repaired(options) {
             break;
         }
-        let gentler = settings.with_less_lean(k);
-        let attempt = Attempt::make(source, options, gentler)?.confirmed(options)?;
-        let mut steps = steps.clone();
-        steps.push(format!(
-            "lean held to {:.0} degrees, for the first pair failed when it was run: {}",
-            gentler.max_lean().to_degrees(),
-            made.faults.join("; ")
-        ));
-        let mut next = attempt.finish(source, options, steps)?;
+        let gentler = settings.with_less_lean(less);
+        let attempt = Attempt::make(source, options, gentler).and_then(|a| a.confirmed(options));
+        // Where no teeth fit at all the first pair is what there is.
+        let Ok(attempt) = attempt else { continue };
+        let said = lean_held(gentler.max_lean(), &best.faults);
+        let mut next =
+            attempt.finish(source, options, steps.iter().cloned().chain([said]).collect())?;
+        next.simulate_if_sound(&options.runs)?;
         if next.is_sound() {
-            next.simulate(&options.runs)?;
-        }
-        if next.is_sound() {
-            made = next;
+            best = next;
         }
     }
+    fitted_out(best, options)
+}
+
+fn lean_held(max_lean: f64, faults: &[String]) -> String {
+    format!(
+        "lean held to {:.0} degrees, for the first pair failed when it was run: {}",
+        max_lean.to_degrees(),
+        faults.join("; ")
+    )
+}
+
+fn fitted_out(mut made: Design, options: &DesignOptions) -> Result<Design, DesignError> {
     let said = outfit::fit_out(&mut made.assembly, &options.outfit, &made.names, made.pair.module)?;
     made.warnings.extend(said);
     Ok(made)

@@ -25,10 +25,11 @@ impl Staging {
     pub fn new(folder: &Path) -> Result<Self, ExportError> {
         let missing = |p: &&Path| !p.as_os_str().is_empty() && p.symlink_metadata().is_err();
         let made = folder.ancestors().take_while(missing).map(Path::to_owned).collect();
-        let hidden = folder.join(format!(".centrode.{}.part", std::process::id()));
+        let hidden = folder.join(format!("{HIDDEN}{}{PART}", std::process::id()));
         // From here on dropping it cleans up, however far the making got.
         let staging = Self { folder: folder.to_owned(), hidden, made };
         super::prepare_folder(folder)?;
+        sweep(folder);
         fs::create_dir_all(&staging.hidden).map_err(|e| ExportError::from_io(folder, e))?;
         Ok(staging)
     }
@@ -65,6 +66,28 @@ impl Staging {
         }
         self.made.clear();
         Ok(published)
+    }
+}
+
+/// Name of the hidden folder: this, the number of the process, and [`PART`].
+const HIDDEN: &str = ".centrode.";
+const PART: &str = ".part";
+
+/// Takes away what killed runs left. Where the system does not tell which processes are alive, everything is left.
+fn sweep(folder: &Path) {
+    let processes = Path::new("/proc");
+    if !processes.join("self").exists() {
+        return;
+    }
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let process = name
+            .to_str()
+            .and_then(|n| n.strip_prefix(HIDDEN)?.strip_suffix(PART)?.parse::<u32>().ok());
+        if process.is_some_and(|id| !processes.join(id.to_string()).exists()) {
+            // Nothing is lost by leaving it.
+            let _ = fs::remove_dir_all(entry.path());
+        }
     }
 }
 

@@ -229,8 +229,14 @@ pub fn fit(
     let winner = found.first().ok_or(FitError::NoCenter)?;
     let fit = placement::place(&problem, winner, pairs_scored)?;
     // What is fixed must stay where it was put.
-    let free = options.fixed == Fixed::default();
-    Ok(if options.refine && free { polish::polished(&problem, fit, &found) } else { fit })
+    if !options.refine || options.fixed != Fixed::default() {
+        return Ok(fit);
+    }
+    // Likeness is not bought with torque: psi' stays below what the search found.
+    let most = options.limits.max_derivative.unwrap_or(f64::INFINITY);
+    let most = most.min(fit.transmission.max_derivative());
+    let held = Limits { max_derivative: Some(most), ..options.limits };
+    Ok(polish::polished(&problem.with_limits(&held), fit, &found))
 }
 
 fn check(ratio: Ratio, options: &FitOptions) -> Result<(), FitError> {

@@ -151,6 +151,46 @@ pub enum LawError {
         /// What to do.
         remedy: &'static str,
     },
+    /// A segment that is no part of a period.
+    #[error(
+        "the segment is {:.1} degrees of the driver long; make it {:.1} to {:.1}, the rest of the period is for closing the gears",
+        .length.to_degrees(), .least.to_degrees(), .most.to_degrees()
+    )]
+    SegmentLength {
+        /// Its length.
+        length: f64,
+        /// Shortest that is taken.
+        least: f64,
+        /// Longest that is taken.
+        most: f64,
+    },
+    /// A segment in which the follower turns nearly as far as in a whole period, or farther.
+    #[error(
+        "the segment turns the follower by {:.1} degrees of the {:.1} that a period comes to, which leaves too little to close the gears; shorten the segment, or ask for a smaller ratio",
+        .gain.to_degrees(), .whole.to_degrees()
+    )]
+    SegmentGain {
+        /// What the follower turns in the segment.
+        gain: f64,
+        /// What it must turn in a period.
+        whole: f64,
+    },
+    /// A segment of a pitch curve given by radii.
+    #[error(
+        "a pitch curve cannot be given in part, for its centre distance follows from the whole; give psi' or psi over the segment"
+    )]
+    SegmentOfRadius,
+    /// A segment that a table does not cover.
+    #[error(
+        "the segment from {:.1} to {:.1} degrees leaves the table, which covers {:.1} to {:.1} degrees; stay inside, or add rows",
+        .wanted.0.to_degrees(), .wanted.1.to_degrees(), .given.0.to_degrees(), .given.1.to_degrees()
+    )]
+    SegmentOutside {
+        /// The segment.
+        wanted: (f64, f64),
+        /// What the table covers.
+        given: (f64, f64),
+    },
     /// No such preset, or a number it does not take.
     #[error(
         "{given:?} is no preset; write constant, ellipse:0.5, eccentric:0.4, dwell:0.1 or quick-return:2 ({why})"

@@ -7,11 +7,13 @@
 mod error;
 mod formula;
 mod preset;
+mod segment;
 mod table;
 
 pub use error::LawError;
 pub use formula::Formula;
 pub use preset::Preset;
+pub use segment::{Segment, from_segment};
 pub use table::Table;
 
 use std::f64::consts::TAU;

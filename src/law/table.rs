@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{LawError, LawOptions, Quantity, closed};
+use super::{LawError, LawOptions, Quantity, Segment, closed, from_segment};
 use crate::pitch::{Transmission, solve_cyclic};
 use crate::policy;
 
@@ -38,7 +38,7 @@ impl Table {
             if data.is_empty() {
                 continue;
             }
-            let fields = fields(data);
+            let fields = crate::outline::split_fields(data);
             let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
             let number =
                 |i: usize| numbers.get(i).copied().flatten().filter(|v: &f64| v.is_finite());
@@ -164,18 +164,57 @@ impl Table {
     }
 }
 
+impl Table {
+    /// The driver angles it covers.
+    #[must_use]
+    pub fn segment(&self) -> Segment {
+        Segment { from: self.angles[0], to: self.angles[self.angles.len() - 1] }
+    }
+
+    /// The motion that follows the samples over a segment that they cover and closes smoothly over the rest of its period.
+    ///
+    /// # Errors
+    /// [`LawError`], as [`from_segment`].
+    pub fn segment_transmission(
+        &self,
+        segment: Segment,
+        options: &LawOptions,
+    ) -> Result<Transmission, LawError> {
+        let whole = self.segment();
+        let slack = policy::LAW_CLOSES_WITHIN * whole.length();
+        if segment.from < whole.from - slack || segment.to > whole.to + slack {
+            return Err(LawError::SegmentOutside {
+                wanted: (segment.from, segment.to),
+                given: (whole.from, whole.to),
+            });
+        }
+        from_segment(|phi| self.between(phi), segment, options)
+    }
+
+    /// The value at an angle: cubics whose slopes at the samples are those of parabolas through three of them.
+    fn between(&self, phi: f64) -> f64 {
+        let (x, y) = (&self.angles, &self.values);
+        let n = x.len();
+        let secant = |i: usize| (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+        let slope = |i: usize| {
+            let k = i.clamp(1, n - 2);
+            let (a, b) = (x[k] - x[k - 1], x[k + 1] - x[k]);
+            let (before, after) = (secant(k - 1), secant(k));
+            let middle = (b * before + a * after) / (a + b);
+            let bend = (after - before) / (a + b);
+            middle + 2.0 * bend * (x[i] - x[k])
+        };
+        let i = x.partition_point(|&v| v <= phi).clamp(1, n - 1) - 1;
+        let h = x[i + 1] - x[i];
+        let t = (phi - x[i]) / h;
+        let (d0, d1) = (h * slope(i), h * slope(i + 1));
+        let (c2, c3) = (3.0 * (y[i + 1] - y[i]) - 2.0 * d0 - d1, 2.0 * (y[i] - y[i + 1]) + d0 + d1);
+        y[i] + t * (d0 + t * (c2 + t * c3))
+    }
+}
+
 /// Greatest span of angles that is taken for radians: two turns and more of the driver make no sense.
 const MOST_RADIANS: f64 = 20.0;
-
-fn fields(line: &str) -> Vec<String> {
-    if line.contains([';', '\t']) {
-        return line.split([';', '\t']).map(|f| f.trim().replace(',', ".")).collect();
-    }
-    if line.contains(',') {
-        return line.split(',').map(|f| f.trim().to_owned()).collect();
-    }
-    line.split_whitespace().map(str::to_owned).collect()
-}
 
 /// A periodic cubic spline over uneven knots.
 struct Periodic {
@@ -291,6 +330,25 @@ mod tests {
             .transmission(&options)
             .unwrap_err();
         assert!(matches!(error, LawError::NotPeriodic { folds: 2, .. }), "{error}");
+    }
+
+    #[test]
+    fn a_part_of_a_turn_may_be_given() {
+        let law = |phi: f64| 0.8 + 0.3 * (1.5 * phi).sin();
+        let rows: String = (0..=120)
+            .map(|i| 0.4 + f64::from(i) / 60.0)
+            .map(|x| format!("{x} {}\n", law(x)))
+            .collect();
+        let table = Table::parse(rows.as_bytes(), Quantity::Speed).unwrap();
+        let options = LawOptions::default();
+        let made = table.segment_transmission(table.segment(), &options).unwrap();
+        for k in 1..40 {
+            let phi = 0.4 + 0.05 * f64::from(k);
+            assert!((made.derivative(phi) - law(phi)).abs() < 2e-5, "{phi}");
+        }
+        let beyond = Segment { from: 0.0, to: 2.0 };
+        let error = table.segment_transmission(beyond, &options).unwrap_err();
+        assert!(error.to_string().contains("22.9 to 137.5 degrees"), "{error}");
     }
 
     #[test]

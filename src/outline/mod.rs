@@ -16,6 +16,7 @@ mod toothed;
 
 pub use load::{LoadError, LoadOptions, Shape, load};
 pub use normalize::{Similarity, normalized};
+pub(crate) use points::split_fields;
 pub use points::{PointsError, from_columns, from_json};
 pub use repair::repaired;
 pub use silhouette::{ImageError, from_image};

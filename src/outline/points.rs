@@ -29,6 +29,16 @@ pub enum PointsError {
         /// The line, shortened.
         text: String,
     },
+    /// Commas stand for decimal points and between the columns alike.
+    #[error(
+        "line {line} (`{text}`) and all others have four whole numbers, as if commas were decimal points too; separate the columns by semicolons"
+    )]
+    DecimalCommas {
+        /// Number of the first such line, from 1.
+        line: usize,
+        /// The line, shortened.
+        text: String,
+    },
     /// The JSON text is malformed.
     #[error(
         "line {line}, column {column}: {reason}; write [[x, y], ...] or {{\"points\": [[x, y], ...]}}"
@@ -57,8 +67,8 @@ pub enum PointsError {
 
 /// Reads columns of numbers: x and y on each line, closed implicitly.
 ///
-/// Columns are separated by commas, semicolons, tabs or blanks; in lines with semicolons a
-/// comma is a decimal point. Empty lines and whatever follows `#` are skipped. A first line
+/// Columns are separated by commas, semicolons, tabs or blanks; in lines with semicolons or tabs, and between blanks
+/// where each number has one inside, a comma is a decimal point. Empty lines and whatever follows `#` are skipped. A first line
 /// without any number is a header; if it names columns `x` and `y`, those are taken, otherwise
 /// the first two. A repeated last point is dropped.
 ///
@@ -73,6 +83,8 @@ pub(super) fn columns(text: &[u8], limit: usize) -> Result<Vec<Point>, PointsErr
     let mut points = Vec::new();
     let mut columns = (0, 1);
     let mut header_allowed = true;
+    // The first line, while all lines could be two numbers with decimal commas and a comma between.
+    let mut torn = None;
     for (index, line) in plain_text(text, limit)?.lines().enumerate() {
         let data = line.split('#').next().unwrap_or_default().trim();
         if data.is_empty() {
@@ -90,21 +102,53 @@ pub(super) fn columns(text: &[u8], limit: usize) -> Result<Vec<Point>, PointsErr
                 let text = data.chars().take(40).collect();
                 return Err(PointsError::BadLine { line: index + 1, text });
             };
+            if points.is_empty() && header_allowed && is_torn(data) {
+                torn = Some((index + 1, data.chars().take(40).collect()));
+            }
+            torn = torn.filter(|_| is_torn(data));
             points.push(Point::new(x, y));
         }
         header_allowed = false;
     }
+    if let Some((line, text)) = torn {
+        return Err(PointsError::DecimalCommas { line, text });
+    }
     Ok(points)
 }
 
-fn split_fields(line: &str) -> Vec<String> {
-    if line.contains(';') {
-        return line.split(';').map(|f| f.trim().replace(',', ".")).collect();
+/// The fields of a line of numbers; see [`from_columns`].
+pub(crate) fn split_fields(line: &str) -> Vec<String> {
+    if line.contains([';', '\t']) {
+        let fields = line.split([';', '\t']).map(str::trim).filter(|f| !f.is_empty());
+        let decimal = |f: &str| {
+            if line.contains(';') || one_comma(f) { f.replace(',', ".") } else { f.to_owned() }
+        };
+        return fields.map(decimal).collect();
+    }
+    if line.split_whitespace().count() > 1 && line.split_whitespace().all(one_comma) {
+        return line.split_whitespace().map(|f| f.replace(',', ".")).collect();
     }
     if line.contains(',') {
         return line.split(',').map(|f| f.trim().to_owned()).collect();
     }
     line.split_whitespace().map(str::to_owned).collect()
+}
+
+/// Whether a field has one comma with digits on both sides.
+fn one_comma(field: &str) -> bool {
+    field.split_once(',').is_some_and(|(whole, rest)| {
+        whole.ends_with(|c: char| c.is_ascii_digit())
+            && !rest.is_empty()
+            && rest.starts_with(|c: char| c.is_ascii_digit())
+            && !rest.contains(',')
+    })
+}
+
+/// Whether a line is four whole numbers between commas, the second and fourth without sign.
+fn is_torn(line: &str) -> bool {
+    let digits = |f: &str| !f.is_empty() && f.bytes().all(|b| b.is_ascii_digit());
+    let fields: Vec<&str> = line.split(',').map(str::trim).collect();
+    matches!(fields[..], [a, b, c, d] if digits(a.trim_start_matches('-')) && digits(b) && digits(c.trim_start_matches('-')) && digits(d))
 }
 
 /// Reads JSON: `[[x, y], ...]` or `{"points": [[x, y], ...]}`, closed implicitly.
@@ -163,6 +207,8 @@ mod tests {
             "0,0\n1.5,0\n1.5,1\n0,1\n0,0\n",
             "x;y\n0;0\n1,5;0\n1,5;1\n0;1",
             "# a square\n0 0\r\n1.5\t0 # corner\r\n\r\n1.5 1\r\n0 1\r\n",
+            "0,0\t0,0\n1,5\t0,0\n1,5\t1\n0\t1,0",
+            "0,0 0,0\n1,50 0,0\n1,5 1,0\n0,0 1,0\n",
             "\u{feff}name, Y, X\n1, 0, 0\n2, 0, 1.5\n3, 1, 1.5\n4, 1, 0\n",
         ];
         for text in ways {
@@ -194,6 +240,11 @@ mod tests {
         assert_eq!(bad("x,y\n0,0\nhello\n"), 3);
         assert_eq!(bad("x,y\nx,y\n0,0\n"), 2);
         assert_eq!(bad("0 0\n1\n2 2\n"), 2);
+        let torn = from_columns(b"0,00,0,00\n1,50,0,00\n1,50, 1,00\n-0,10,1,00\n").unwrap_err();
+        assert!(torn.to_string().contains("semicolons"), "{torn}");
+        // Four columns of which two are taken.
+        assert!(from_columns(b"x,y,z,n\n0,0,1,1\n3,0,1,2\n3,2,1,3\n").is_ok());
+        assert!(from_columns(b"0,0,1,1\n3,0,1,-2\n3,2,1,3\n").is_ok());
     }
 
     #[test]

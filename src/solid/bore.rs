@@ -253,11 +253,12 @@ fn regular(radius: f64, steps: usize) -> Vec<Point> {
     (0..steps).map(corner).collect()
 }
 
-/// Chords that keep within `tolerance` of an arc of `radius` over `angle`: one per sixteenth of a
-/// turn at least, so that a coarse tolerance still leaves a recognisable arc.
+/// Chords that keep within `tolerance` of an arc of `radius` over `angle`: one per thirty-second of
+/// a turn at least, so that a coarse tolerance still leaves a recognisable arc
+/// ([`policy::CORNER_TURN`]).
 fn chords(radius: f64, tolerance: f64, angle: f64) -> usize {
     let reach = (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos();
-    let step = (2.0 * reach).clamp(TAU / 4096.0, TAU / 16.0);
+    let step = (2.0 * reach).clamp(TAU / 4096.0, TAU / 32.0);
     (angle / step).ceil() as usize
 }
 
@@ -302,7 +303,7 @@ mod tests {
     fn a_finer_tolerance_draws_more_chords() {
         let count = |t| Bore::Round { diameter: 5.0 }.polygon(t).unwrap().unwrap().len();
         assert!(count(1e-4) > 2 * count(1e-2));
-        assert_eq!(count(10.0), 16);
+        assert_eq!(count(10.0), 32);
     }
 
     #[test]

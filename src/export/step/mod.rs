@@ -265,8 +265,8 @@ mod tests {
         assert_eq!(count("=MANIFOLD_SOLID_BREP("), 2);
         assert_eq!(
             count("=CYLINDRICAL_SURFACE("),
-            2 + 8,
-            "round bore and the fillets of the cross"
+            2 + 4,
+            "both halves of the round bore and the four fillets of the cross"
         );
     }
 

@@ -52,7 +52,10 @@ pub(super) fn arcs_along(path: &CubicPath, samples: &Samples, tolerance: f64) ->
         let pair = biarc(at[i].0, at[i].1, at[j].0, at[j].1)?;
         let off = |p: Point| pair[0].distance(p).min(pair[1].distance(p));
         let close = (i..=j).all(|k| off(samples.points[k]) <= tolerance)
-            && (i..j).all(|k| off(samples.middle(k)) <= samples.allowance(k, tolerance));
+            && (i..j).all(|k| {
+                let most = samples.allowance(k, tolerance);
+                samples.places(k).iter().all(|&(_, p)| off(p) <= most)
+            });
         close.then_some(pair)
     };
     let mut arcs = Vec::new();

@@ -213,8 +213,8 @@ fn missed_spans(
     let missed = |a: usize, b: usize| {
         (a..=b).any(|k| off(samples.walked[k], samples.points[k]) > tolerance)
             || (a..b).any(|k| {
-                let u = 0.5 * (samples.walked[k] + samples.walked[k + 1]);
-                off(u, samples.middle(k)) > samples.allowance(k, 2.0 * tolerance)
+                let most = samples.allowance(k, 2.0 * tolerance);
+                samples.places(k).iter().any(|&(u, p)| off(u, p) > most)
             })
     };
     (0..nodes.len() - 1).filter(|&i| missed(nodes[i], nodes[i + 1])).collect()

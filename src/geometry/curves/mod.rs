@@ -281,15 +281,19 @@ fn split(points: &[Point], straight_edges: bool) -> Vec<Samples> {
     let mut cut: Vec<bool> = (0..n)
         .map(|i| turn(point(i + n - 1), point(i), point(i + 1)).abs() > policy::CORNER_TURN)
         .collect();
-    if straight_edges {
-        let length = |i: usize| (point(i + 1) - point(i)).norm();
-        for i in 0..n {
-            let most = policy::STRAIGHT_EDGE_RATIO * length(i + n - 1).max(length(i + 1));
-            if length(i) > most {
-                cut[i] = true;
-                cut[(i + 1) % n] = true;
-            }
+    let length = |i: usize| (point(i + 1) - point(i)).norm();
+    for i in 0..n {
+        let [before, after] = [length(i + n - 1), length(i)];
+        let most = policy::STRAIGHT_EDGE_RATIO * length(i + n - 1).max(length(i + 1));
+        if straight_edges && after > most {
+            cut[i] = true;
+            cut[(i + 1) % n] = true;
         }
+        // A curve through three vertices leaves the longer chord by nearly the whole turn. Sampled
+        // curves have long chords where they hardly bend: this one is straight.
+        let [short, long] = [before.min(after), before.max(after)];
+        let leaves = turn(point(i + n - 1), point(i), point(i + 1)).abs() * long / (long + short);
+        cut[i] |= long > policy::BEND_RATIO * short && leaves > policy::BEND_TURN;
     }
     let Some(first) = cut.iter().position(|&c| c) else {
         let ring = (0..=n).map(point).collect();

@@ -40,11 +40,18 @@ impl Samples {
         nalgebra::center(&self.points[k], &self.points[k + 1])
     }
 
+    /// Places on the chord from vertex `k` to the next at which a curve beside it is judged, each with the
+    /// length walked to it: a curve may cross a chord in its middle and stand off on both sides.
+    pub(super) fn places(&self, k: usize) -> [(f64, Point); 3] {
+        let (a, b) = (self.points[k], self.points[k + 1]);
+        [0.25, 0.5, 0.75].map(|t| (self.walked[k] + t * self.edge(k), a + t * (b - a)))
+    }
+
     fn edge(&self, k: usize) -> f64 {
         self.walked[k + 1] - self.walked[k]
     }
 
-    /// How far a curve that passes the vertices within `tolerance` may stand off the middle of the chord from
+    /// How far a curve that passes the vertices within `tolerance` may stand off the chord from
     /// vertex `k` to the next: twice the bow, for curvature is not as even as its estimate.
     pub(super) fn allowance(&self, k: usize, tolerance: f64) -> f64 {
         tolerance + 2.0 * self.bow(k)

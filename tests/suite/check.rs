@@ -1,10 +1,8 @@
 //! `centrode check` passes pairs that mesh, catches those that do not, and refuses what is no pair.
 
-mod common;
-
+use crate::common::{centrode, complaint};
 use centrode::outline::{GearRole, load_toothed};
 use centrode::policy::EXPORT_TOLERANCE;
-use common::{centrode, complaint};
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;

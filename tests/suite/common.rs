@@ -1,7 +1,5 @@
 //! What the tests of the command share.
 
-#![allow(dead_code, reason = "not every test file uses all of it")]
-
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

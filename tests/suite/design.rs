@@ -1,9 +1,7 @@
 //! `centrode design`: two shapes in, files out that other programs can rely on.
 
-mod common;
-
+use crate::common::{centrode, complaint, tree};
 use centrode::geometry::{self, Point};
-use common::{centrode, complaint, tree};
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::fs;

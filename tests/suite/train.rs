@@ -1,8 +1,6 @@
 //! `centrode train`: saved pairs become trains whose every gear stands and turns right, or a sentence says why not.
 
-mod common;
-
-use common::{centrode, complaint};
+use crate::common::{centrode, complaint};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

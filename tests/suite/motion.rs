@@ -1,8 +1,6 @@
 //! Gears from a motion and from one shape, fixed choices, and what a system installs.
 
-mod common;
-
-use common::{centrode, complaint, tree};
+use crate::common::{centrode, complaint, tree};
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
@@ -61,6 +59,32 @@ fn a_formula_becomes_the_motion_it_says() {
     assert!(record["strength"]["weakest_tooth"]["stress"].as_f64().unwrap() > 0.0);
     let by_angle = made(&["motion", "phi + 0.15*sin(2*phi)", "--psi"]);
     follows(&by_angle, |phi| phi + 0.15 * (2.0 * phi).sin(), 1e-8);
+}
+
+#[test]
+fn a_part_of_a_turn_is_followed_and_the_rest_closes() {
+    // From 30 to 150 degrees the follower gains speed evenly.
+    let record = made(&["motion", "0.7 + 0.2*phi", "--from", "30", "--to", "150"]);
+    let driver = numbers(&record["motion"]["driver_angle"]);
+    let follower = numbers(&record["motion"]["follower_angle"]);
+    let (from, to) = (TAU / 12.0, TAU * 5.0 / 12.0);
+    let law = |phi: f64| 0.7 * (phi - from) + 0.1 * (phi * phi - from * from);
+    let inside: Vec<_> =
+        driver.iter().zip(&follower).filter(|(phi, _)| (from..=to).contains(*phi)).collect();
+    let (first, turned) = inside[0];
+    for (phi, angle) in &inside {
+        assert!((**angle - turned - (law(**phi) - law(*first))).abs() < 1e-4, "{phi}");
+    }
+    assert!(inside.len() > 300);
+    assert!((follower[follower.len() - 1] - TAU).abs() < 1e-9);
+    assert_eq!(record["meshing"]["lost_poses"], 0);
+    refuses(
+        &["motion", "2.2", "--from", "0", "--to", "170"],
+        &["turns the follower by 374", "shorten"],
+    );
+    refuses(&["motion", "1", "--from", "0", "--to", "360"], &["342.0", "closing"]);
+    refuses(&["motion", "1", "--from", "0"], &["--to"]);
+    refuses(&["motion", "--preset", "constant", "--from", "0", "--to", "9"], &["--from"]);
 }
 
 #[test]

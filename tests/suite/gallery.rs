@@ -1,8 +1,6 @@
 //! `centrode gallery`: every pair in a row, resumed, sharded and joined.
 
-mod common;
-
-use common::{centrode, complaint, tree};
+use crate::common::{centrode, complaint, tree};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;

@@ -1,8 +1,6 @@
 //! Bad input is answered by one clear line and exit code 2, and leaves nothing behind.
 
-mod common;
-
-use common::{centrode, complaint, tree};
+use crate::common::{centrode, complaint, tree};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

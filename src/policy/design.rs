@@ -1,0 +1,112 @@
+//! Design: size, attempts and repairs.
+
+/// Steepest lean of a pitch curve by default, radians. With a pressure angle of 20 degrees the
+/// force then stays within 75 degrees of the motion; friction binds soon after.
+pub const DESIGN_MAX_LEAN: f64 = 55.0 * std::f64::consts::PI / 180.0;
+/// Largest curvature of a pitch curve times the module, first choice. At a constant curvature flanks
+/// of 30 degrees hand motion on up to 0.40; a corner that is that sharp over less than a pitch may be sharper,
+/// and what this leaves is found by the contact analysis and repaired.
+pub const CURVATURE_TIMES_MODULE: f64 = 0.5;
+/// Factor on that bound at each repair.
+pub const CURVATURE_REPAIR: f64 = 0.75;
+/// Taken from the lean bound at each repair, radians.
+pub const LEAN_REPAIR: f64 = 5.0 * std::f64::consts::PI / 180.0;
+/// Taken from the lean bound, radians (5 and 15 degrees), for the pairs that are tried when the first one fails as rigid bodies:
+/// a little often helps, and where it does not a little more seldom does.
+pub const PROOF_REPAIRS: [f64; 2] = [LEAN_REPAIR, 3.0 * LEAN_REPAIR];
+/// Repairs tried at most, so that the work stays bounded.
+pub const REPAIRS: usize = 4;
+/// Tooth counts that are tried, smallest first.
+pub const TOOTH_COUNTS: [u32; 7] = [24, 32, 40, 48, 56, 64, 72];
+/// Change of shape (in the measure of E_s) by rounding corners below which fewer teeth are taken.
+pub const ROUNDING_ACCEPTED: f64 = 0.03;
+/// Smallest module chosen without being asked, mm: below it a common printer fails.
+pub const SMALLEST_CHOSEN_MODULE: f64 = 1.2;
+/// Fewest and most teeth on either gear.
+pub const TEETH_RANGE: (u32, u32) = (6, 1000);
+/// Motion samples per period of the motion in every file.
+pub const MOTION_SAMPLES: usize = 1024;
+/// Points on a pitch curve in every file.
+pub const PITCH_CURVE_POINTS: usize = 720;
+/// 99th percentile of the transmission error without clearance, in pitches, that a pair should keep.
+pub const GOOD_TRANSMISSION_ERROR: f64 = 0.02;
+/// The same above which a pair is not sound.
+pub const WORST_TRANSMISSION_ERROR: f64 = 0.25;
+/// Interference of the finished gears above which a pair is not sound, in modules; without clearance what
+/// chords and carving leave by design is allowed on top.
+pub const WORST_INTERFERENCE: f64 = 1e-4;
+/// Pressure angle plus friction above which a drive is likely to bind, radians (a warning).
+pub const STEEP_PRESSURE_ANGLE: f64 = 70.0 * std::f64::consts::PI / 180.0;
+/// Largest centre distance, extent, clearance or thickness accepted, mm: ten metres.
+pub const LARGEST_LENGTH: f64 = 10_000.0;
+/// Distance between a round bore and its chords, mm.
+pub const BORE_CHORD_TOLERANCE: f64 = 0.005;
+/// Wall between bore and outline below which a bore is refused, mm: two printed lines.
+pub const BORE_WALL: f64 = 0.8;
+/// Lean below which reducing it gains less than it costs in likeness, radians.
+pub const LEAN_WORTH_REDUCING: f64 = 40.0 * std::f64::consts::PI / 180.0;
+/// Change of shape (in the measure of E_s) that a person wants to hear of.
+pub const LIMIT_WORTH_SAYING: f64 = 0.005;
+/// Height of a regular wave tooth from root to tip, in addenda: that of the involute teeth's addendum
+/// and as much dedendum.
+pub const WAVE_HEIGHT: f64 = 1.6;
+/// rho of Eq. 17, in modules.
+pub const WAVE_TOLERANCE: f64 = 0.1;
+/// Tallest wave tooth, in modules: Eq. 17 grows without bound with the lean.
+pub const WAVE_TALLEST: f64 = 3.0;
+/// Points on one wave: chords within 0.005 module.
+pub const WAVE_POINTS_PER_TOOTH: usize = 32;
+/// The paper's search: cells along each side of the grid.
+pub const PAPER_GRID: usize = 3;
+/// The paper's J: pairs whose cells are refined.
+pub const PAPER_KEPT: usize = 3;
+/// The paper's depth of recursion.
+pub const PAPER_DEPTH: usize = 3;
+/// The paper's M: shifts tried over the long gear's turn.
+pub const PAPER_SHIFTS: usize = 128;
+/// Centres of the dense grid in each shape: 225 squared is above 50,000 pairs.
+pub const GRID_CENTERS: usize = 225;
+/// Tries at a spacing that puts enough grid points inside a thin shape, and the factor between tries.
+pub const GRID_ATTEMPTS: usize = 40;
+/// See [`GRID_ATTEMPTS`].
+pub const GRID_SHRINK: f64 = 0.97;
+/// Samples over the long gear's turn in the dense scan: enough to rank centres, not to judge them.
+pub const SCAN_SAMPLES: usize = 512;
+/// Least samples of one period in the scan of a pair with a high ratio.
+pub const SCAN_SAMPLES_LEAST: usize = 64;
+/// Vertices of an outline in scan and first refinement; finer detail does not move a centre.
+pub const SCAN_VERTICES: usize = 512;
+/// Pairs kept for each centre of the short gear in the scan.
+pub const KEPT_PER_ROW: usize = 24;
+/// Pairs of the scan that are worked out with the limits' cost.
+pub const LIMITED_PAIRS: usize = 2048;
+/// Distinct candidates that leave the scan.
+pub const KEPT_CANDIDATES: usize = 20;
+/// Candidates are the same when both centres lie closer than this many grid steps.
+pub const DISTINCT_STEPS: f64 = 2.1;
+/// Candidates refined continuously.
+pub const REFINED_STARTS: usize = 6;
+/// First step of the shift in a refinement, samples of the scan.
+pub const REFINE_SHIFT: f64 = 2.0;
+/// Evaluations of one refinement at half resolution.
+pub const REFINE_EVALUATIONS: usize = 120;
+/// Refined candidates that are polished at full resolution.
+pub const POLISHED: usize = 2;
+/// First steps of the polish over those of the refinement.
+pub const POLISH_SHRINK: f64 = 0.1;
+/// Evaluations of one polish.
+pub const POLISH_EVALUATIONS: usize = 80;
+/// Most cells of the grid that looks for centres in a thin shape.
+pub const GRID_CELLS_MOST: f64 = 100_000.0;
+/// omega of the paper.
+pub const DEFAULT_TORQUE_WEIGHT: f64 = 0.2;
+/// N of the paper.
+pub const DEFAULT_FIT_SAMPLES: usize = 1024;
+/// Least samples of one period in a fit; the curvature of fewer means nothing.
+pub const FIT_SAMPLES_LEAST: usize = 64;
+/// Most samples over the long gear's turn: a quarter million already takes seconds.
+pub const FIT_SAMPLES_MOST: usize = 1 << 18;
+/// Directions compared when a drawing is placed on its pitch curve (one period).
+pub const PLACEMENT_SAMPLES: usize = 1024;
+/// How far, radians, a follower's drawing may swing from the angle of the fit to overlay its pitch curve best.
+pub const PLACEMENT_SWING: f64 = 0.25;

@@ -1,0 +1,50 @@
+//! Motions, mates, fixed choices.
+
+/// Samples of psi' in one period of a motion that is given as a formula: the spline through them is exact to 1e-10 for
+/// laws of a few waves.
+pub const LAW_SAMPLES: usize = 2048;
+/// Longest formula, characters: more than anybody types; bounds the work of the parser.
+pub const FORMULA_LENGTH: usize = 1000;
+/// Deepest nesting of brackets in a formula; the parser recurses once a level.
+pub const FORMULA_DEPTH: usize = 50;
+/// Relative difference by which psi' may fail to repeat before it is refused: ten times what rounding does
+/// to a formula of a hundred terms would be 1e-12, and a table rounded to six digits 1e-6.
+pub const LAW_REPEATS_WITHIN: f64 = 1e-5;
+/// Relative difference of the mean of psi' from n/m that is taken for rounding and scaled away: constants typed with four
+/// digits.
+pub const LAW_CLOSES_WITHIN: f64 = 2e-4;
+/// Least psi' of a motion over its mean: below it the driver's pitch curve is thinner at its waist than a
+/// tenth of a percent of the centre distance.
+pub const LAW_LEAST: f64 = 1e-3;
+/// Step of the differences that turn psi into psi', radians: the five-point rule then errs by 1e-12 for laws of a few waves.
+pub const LAW_DIFFERENCE: f64 = 1e-3;
+/// Rows of a table of a motion.
+pub const LAW_ROWS: (usize, usize) = (8, 100_000);
+/// Longest table of a motion, bytes.
+pub const LAW_TABLE_BYTES: usize = 10_000_000;
+/// Shortest and longest segment of a motion, shares of its period: what closes the gears needs room too.
+pub const LAW_SEGMENT: (f64, f64) = (0.01, 0.95);
+/// Greatest height of the bump in ln psi' that closes a segment: psi' changes by e to this power, far beyond any gear.
+pub const LAW_CLOSING_MOST: f64 = 64.0;
+/// Halvings of the bracket of that height; the last is below the rounding of the sum.
+pub const LAW_CLOSING_HALVINGS: usize = 60;
+/// Rounds in which a fixed orientation is approached; three suffice for laws that bend little.
+pub const ORIENTATION_ROUNDS: usize = 12;
+/// Angle to which a fixed orientation is kept, radians: far below what can be seen.
+pub const ORIENTATION_WITHIN: f64 = 1e-7;
+/// Samples of a period in the search for a mate's axis.
+pub const MATE_SCAN_SAMPLES: usize = 256;
+/// Axes of the grid that are refined when a shape is mated.
+pub const MATE_STARTS: usize = 8;
+/// Evaluations of one such refinement: two coordinates.
+pub const MATE_EVALUATIONS: usize = 60;
+/// Values of phi + psi at which a law is made symmetric, over its period of two turns.
+pub const SYMMETRIC_SUMS: usize = 2048;
+/// Sines of a symmetric law, in two turns; the last are damped to nothing.
+pub const SYMMETRIC_WAVES: usize = 512;
+/// Sine that is damped by a factor e: 100 waves a turn, 3.6 degrees, less than half a tooth of the finest pair chosen.
+pub const SYMMETRIC_DAMPING: f64 = 200.0;
+/// Samples of a symmetric law: the spline through 100 waves a turn then errs by 1e-10 of the centre distance.
+pub const SYMMETRIC_SAMPLES: usize = 8192;
+/// Rounds in which a symmetric law is brought within its bounds.
+pub const SYMMETRIC_ROUNDS: usize = 6;
