@@ -17,7 +17,7 @@ import shapely
 from fontTools.pens.basePen import BasePen
 from fontTools.ttLib import TTFont
 from shapely import affinity
-from shapely.geometry import LineString, MultiPolygon, Point, Polygon, box
+from shapely.geometry import LineString, Point, Polygon, box
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789&@%?!§$#+*=/{}[]~;"
 CURVE_STEPS = 8  # chords for each curve of a glyph
@@ -383,8 +383,8 @@ def png(pixels):
 RATIOS = ["1/3", "1/2", "1", "1", "2", "3", "4"]
 
 
-def pairs(seed, count, font):
-    """`count` pairs: number, two silhouettes, ratio, teeth of the driver."""
+def pairs(seed, count, font, wanted):
+    """Of `count` pairs those with the numbers wanted: number, two silhouettes, ratio, teeth of the driver."""
     rng = random.Random(seed)
     kinds = [KINDS[i % len(KINDS)] for i in range(2 * count)]
     rng.shuffle(kinds)
@@ -395,5 +395,7 @@ def pairs(seed, count, font):
             # The driver's teeth must divide by the folds; every tenth pair forgets it.
             folds = int(ratio[2:])
             teeth = -(-teeth // folds) * folds
+        if number not in wanted:
+            continue
         shapes = [Silhouette(seed, 2 * number + i, kinds[2 * number + i], font) for i in (0, 1)]
         yield number, shapes, ratio, teeth
