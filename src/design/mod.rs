@@ -110,6 +110,35 @@ impl Design {
         Ok(())
     }
 
+    /// Proves the finished pair: by the runs asked for, or without any by the swing of its contact analysis.
+    fn proved(&mut self) -> Result<(), DynamicsError> {
+        if !self.options.runs.is_empty() {
+            let runs = self.options.runs.clone();
+            return self.simulate(&runs);
+        }
+        if !self.options.quick {
+            self.judge_swing();
+        }
+        Ok(())
+    }
+
+    /// Holds the finished gears, with their clearance and relief, to the limits that a run holds them to.
+    fn judge_swing(&mut self) {
+        let summary = &self.contact.summary;
+        let (Some(angle), Some(share)) =
+            (&summary.transmission_error, &summary.transmission_error_pitch)
+        else {
+            return;
+        };
+        let (angle, pitches) = (angle.peak_to_peak, share.peak_to_peak);
+        let swing = |limit| Reason::Swing { angle, pitches, limit }.to_string();
+        if pitches > policy::WORST_SWING {
+            self.faults.push(swing(policy::WORST_SWING));
+        } else if pitches > policy::NOTED_SWING {
+            self.warnings.push(swing(policy::NOTED_SWING));
+        }
+    }
+
     /// How many teeth of one period, both gears together, are full, steeper, shortened, blunted.
     #[must_use]
     pub fn tooth_tally(&self) -> [usize; 4] {
@@ -208,7 +237,8 @@ fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, Des
             }
             let (next, said) = settings.gentler(&best);
             settings = next;
-            let attempt = Attempt::make(source, options, settings)?;
+            // What cannot be made is no reason to give up what has been.
+            let Ok(attempt) = Attempt::make(source, options, settings) else { continue };
             if attempt.badness() < best.badness() {
                 steps.push(format!(
                     "{said}: transmission error {:.2} % of a pitch instead of {:.2} %",
@@ -222,24 +252,29 @@ fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, Des
     let settings = best.settings();
     let best = best.confirmed(options)?;
     let mut made = best.finish(source, options, steps.clone())?;
-    if made.is_sound() {
-        made.simulate(&options.runs)?;
+    let meshes = made.is_sound();
+    if meshes {
+        made.proved()?;
     }
-    for k in 1..=if options.repair && made.proof.is_some() { policy::PROOF_REPAIRS } else { 0 } {
+    for k in 1..=if options.repair && meshes { policy::PROOF_REPAIRS } else { 0 } {
         if made.is_sound() {
             break;
         }
         let gentler = settings.with_less_lean(k);
-        let attempt = Attempt::make(source, options, gentler)?.confirmed(options)?;
+        let Ok(attempt) =
+            Attempt::make(source, options, gentler).and_then(|made| made.confirmed(options))
+        else {
+            break;
+        };
         let mut steps = steps.clone();
         steps.push(format!(
-            "lean held to {:.0} degrees, for the first pair failed when it was run: {}",
+            "lean held to {:.0} degrees, for the first pair failed when it was proved: {}",
             gentler.max_lean().to_degrees(),
             made.faults.join("; ")
         ));
-        let mut next = attempt.finish(source, options, steps)?;
+        let Ok(mut next) = attempt.finish(source, options, steps) else { break };
         if next.is_sound() {
-            next.simulate(&options.runs)?;
+            next.proved()?;
         }
         if next.is_sound() {
             made = next;
