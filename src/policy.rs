@@ -1142,3 +1142,10 @@ pub const WARP_SMOOTHING: usize = 2;
 pub const DEFAULT_STAR_WEIGHT: f64 = 2.0;
 /// Share of a drawing's area that must be lost before the loss is worth a warning.
 pub const LOST_AREA_WORTH_SAYING: f64 = 0.005;
+
+// ---- Design: play of the finished pair ---------------------------------------------------------------
+
+/// Play in pitches that fails: teeth so thin beside their gaps take hold at their tips only.
+pub const WORST_PLAY: f64 = 0.45;
+/// Play in pitches that warns.
+pub const NOTED_PLAY: f64 = 0.35;

@@ -112,6 +112,10 @@ impl Design {
 
     /// Proves the finished pair: by the runs asked for, or without any by the swing of its contact analysis.
     fn proved(&mut self) -> Result<(), DynamicsError> {
+        self.judge_play();
+        if !self.is_sound() {
+            return Ok(());
+        }
         if !self.options.runs.is_empty() {
             let runs = self.options.runs.clone();
             return self.simulate(&runs);
@@ -120,6 +124,25 @@ impl Design {
             self.judge_swing();
         }
         Ok(())
+    }
+
+    /// Play so wide that little of each tooth is left to hold.
+    fn judge_play(&mut self) {
+        let held = self.contact.poses.iter().filter(|p| !p.lost && !p.lost_reversed);
+        let widest = held
+            .map(|p| ((p.play_behind + p.play_ahead) / p.pitch_angle, p.driver_angle))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((share, at)) = widest.filter(|w| w.0 > policy::NOTED_PLAY) else { return };
+        let said = format!(
+            "the play reaches {:.0} % of a pitch at {:.0} degrees of driver turn; give less clearance, less lean or fewer teeth",
+            100.0 * share,
+            at.to_degrees()
+        );
+        if share > policy::WORST_PLAY {
+            self.faults.push(said);
+        } else {
+            self.warnings.push(said);
+        }
     }
 
     /// Holds the finished gears, with their clearance and relief, to the limits that a run holds them to.
