@@ -17,12 +17,14 @@ INK, LEFT, RIGHT, GREY = (30, 30, 30), (150, 190, 225), (240, 190, 130), (185, 1
 
 # What a refusal means, by words in it.
 MEANINGS = [
+    (r"loses? .*fewer teeth|contact is lost.*fewer teeth", "The teeth asked for are so small that the default clearance of 0.1 mm "
+     "leaves too little of them."),
     (r"contact is lost", "The pitch curves bend or lean so fast that, with as many teeth as were asked for, a flank ends "
      "before the next one takes hold. Up to four gentler settings were tried before."),
     (r"driven backwards", "As above, in one sense of rotation only."),
     (r"transmission error reaches", "Contact is kept, but the follower swings by more than a quarter of a pitch."),
     (r"gears overlap", "The finished outlines overlap by more than 1e-4 module."),
-    (r"crosses itself", "Points in a list whose line crosses itself: what is inside cannot be told. Drawings are filled as SVG says."),
+    (r"crosses itself", "A line that crosses itself, so that no single part has nearly all of the area."),
     (r"give a multiple of", "The generator asks now and then for teeth that cannot be shared out among the equal parts of a gear."),
     (r"number of follower teeth", "At ratios below 1 the follower has fewer teeth than the driver; under six there is no gear."),
     (r"more than \S+; thin", "More points than are read."),

@@ -357,17 +357,21 @@ impl Attempt {
     fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let summary = &self.contact.summary;
+        let exact = &self.exact.summary;
+        // Where the teeth themselves keep contact, clearance opens them too far for their size.
+        let remedy = if exact.lost_poses + exact.lost_poses_reversed == 0 {
+            "give less clearance or fewer teeth"
+        } else {
+            "try more teeth, more smoothing or a lower --max-lean"
+        };
         if let Some(arc) = summary.lost.first() {
             faults.push(format!(
-                "contact is lost over {:.1} degrees of driver turn, first at {:.1} degrees; try more teeth, more smoothing or a lower --max-lean",
+                "contact is lost over {:.1} degrees of driver turn, first at {:.1} degrees; {remedy}",
                 summary.lost_angle.to_degrees(),
                 arc.from.to_degrees()
             ));
         } else if summary.lost_poses_reversed > 0 {
-            faults.push(
-                "driven backwards the pair loses contact; try more teeth or a lower --max-lean"
-                    .to_owned(),
-            );
+            faults.push(format!("driven backwards the pair loses contact; {remedy}"));
         }
         if self.interference_in_modules() > self.allowed_interference
             && let Some(worst) = &summary.max_interference
