@@ -69,8 +69,9 @@ impl Settings {
                 let most =
                     perimeter(&centrodes) / (std::f64::consts::PI * policy::SMALLEST_CHOSEN_MODULE);
                 let bend = if source.exact { source.bend() } else { 0.0 };
+                let (fewest, greatest) = teeth_range(folds);
                 for count in policy::TOOTH_COUNTS {
-                    let count = whole_teeth(f64::from(count), folds);
+                    let count = whole_teeth(f64::from(count.max(fewest).min(greatest)), folds);
                     if settings.teeth != 0 && f64::from(count) > most {
                         break;
                     }
@@ -89,16 +90,18 @@ impl Settings {
         }
         let (least, most) = policy::TEETH_RANGE;
         let follower = settings.teeth * folds.1 / folds.0;
+        let remedy = if matches!(options.teeth, ToothCount::Teeth(_)) {
+            let (fewest, greatest) = teeth_range(folds);
+            format!("give {fewest} to {greatest} driver teeth")
+        } else {
+            format!("choose a module that gives {least} to {most} teeth")
+        };
         for (name, count) in [
             ("the number of driver teeth", settings.teeth),
             ("the number of follower teeth", follower),
         ] {
             if !(least..=most).contains(&count) {
-                return Err(DesignError::Option {
-                    name,
-                    value: f64::from(count),
-                    remedy: format!("choose a module that gives {least} to {most} teeth"),
-                });
+                return Err(DesignError::Option { name, value: f64::from(count), remedy });
             }
         }
         Ok(settings)
@@ -141,6 +144,14 @@ impl Settings {
 
 fn whole_teeth(count: f64, folds: (u32, u32)) -> u32 {
     ((count / f64::from(folds.0)).round().max(1.0) as u32).saturating_mul(folds.0)
+}
+
+/// Fewest and most driver teeth with which both gears have a number within [`policy::TEETH_RANGE`].
+fn teeth_range((driver, follower): (u32, u32)) -> (u32, u32) {
+    let (least, most) = policy::TEETH_RANGE;
+    let fewest = driver.saturating_mul(least.div_ceil(follower));
+    let greatest = driver.saturating_mul(most / follower);
+    (least.max(fewest), most.min(greatest))
 }
 
 /// The pitch curves at the size asked for; the extent counts the tips of `teeth` driver teeth.
@@ -346,17 +357,21 @@ impl Attempt {
     fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let summary = &self.contact.summary;
+        let exact = &self.exact.summary;
+        // Where the teeth themselves keep contact, clearance opens them too far for their size.
+        let remedy = if exact.lost_poses + exact.lost_poses_reversed == 0 {
+            "give less clearance or fewer teeth"
+        } else {
+            "try more teeth, more smoothing or a lower --max-lean"
+        };
         if let Some(arc) = summary.lost.first() {
             faults.push(format!(
-                "contact is lost over {:.1} degrees of driver turn, first at {:.1} degrees; try more teeth, more smoothing or a lower --max-lean",
+                "contact is lost over {:.1} degrees of driver turn, first at {:.1} degrees; {remedy}",
                 summary.lost_angle.to_degrees(),
                 arc.from.to_degrees()
             ));
         } else if summary.lost_poses_reversed > 0 {
-            faults.push(
-                "driven backwards the pair loses contact; try more teeth or a lower --max-lean"
-                    .to_owned(),
-            );
+            faults.push(format!("driven backwards the pair loses contact; {remedy}"));
         }
         if self.interference_in_modules() > self.allowed_interference
             && let Some(worst) = &summary.max_interference
@@ -470,9 +485,9 @@ impl Attempt {
                 }
                 if drawn.gear.lost_area > policy::LOST_AREA_WORTH_SAYING {
                     warnings.push(format!(
-                        "{:.1} % of the area of {} cannot be seen from the {name}'s axis and is filled in; a shape with shallower bays keeps more",
-                        100.0 * drawn.gear.lost_area,
-                        drawn.shape.name
+                        "bays of {} that the {name}'s axis does not see are filled in, {:.1} % of its area; a shape with shallower bays keeps more",
+                        drawn.shape.name,
+                        100.0 * drawn.gear.lost_area
                     ));
                 }
             }
@@ -535,6 +550,7 @@ impl Attempt {
             steps,
             warnings,
             faults,
+            is_proved: false,
         })
     }
 }

@@ -69,6 +69,8 @@ pub struct Design {
     pub warnings: Vec<String>,
     /// Why the pair must not be trusted; empty when it is sound.
     pub faults: Vec<String>,
+    /// Whether its play and swing, or its runs, have been judged.
+    pub(crate) is_proved: bool,
 }
 
 impl Design {
@@ -110,13 +112,65 @@ impl Design {
         Ok(())
     }
 
-    fn simulate_if_sound(&mut self, runs: &[DynamicsOptions]) -> Result<(), DynamicsError> {
-        if self.is_sound() { self.simulate(runs) } else { Ok(()) }
+    /// Proves the finished pair: by the runs asked for, or without any by the swing of its contact analysis.
+    fn proved(&mut self) -> Result<(), DynamicsError> {
+        if !self.is_sound() {
+            return Ok(());
+        }
+        self.is_proved = true;
+        self.judge_play();
+        if !self.is_sound() {
+            return Ok(());
+        }
+        if !self.options.runs.is_empty() {
+            let runs = self.options.runs.clone();
+            return self.simulate(&runs);
+        }
+        if !self.options.quick {
+            self.judge_swing();
+        }
+        Ok(())
     }
 
-    /// Whether it failed as rigid bodies and may be made otherwise.
-    fn can_be_repaired(&self, options: &DesignOptions) -> bool {
-        options.repair && self.proof.is_some() && !self.is_sound()
+    /// Play so wide that little of each tooth is left to hold.
+    fn judge_play(&mut self) {
+        let held = self.contact.poses.iter().filter(|p| !p.lost && !p.lost_reversed);
+        let widest = held
+            .map(|p| ((p.play_behind + p.play_ahead) / p.pitch_angle, p.driver_angle))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((share, at)) = widest.filter(|w| w.0 > policy::NOTED_PLAY) else { return };
+        let said = format!(
+            "the play reaches {:.0} % of a pitch at {:.0} degrees of driver turn; give less clearance, less lean or fewer teeth",
+            100.0 * share,
+            at.to_degrees()
+        );
+        if share > policy::WORST_PLAY {
+            self.faults.push(said);
+        } else {
+            self.warnings.push(said);
+        }
+    }
+
+    /// Holds the finished gears, with their clearance and relief, to the limits that a run holds them to.
+    fn judge_swing(&mut self) {
+        let summary = &self.contact.summary;
+        let (Some(angle), Some(share)) =
+            (&summary.transmission_error, &summary.transmission_error_pitch)
+        else {
+            return;
+        };
+        let (angle, pitches) = (angle.peak_to_peak, share.peak_to_peak);
+        let swing = |limit| Reason::Swing { angle, pitches, limit }.to_string();
+        if pitches > policy::WORST_SWING {
+            self.faults.push(swing(policy::WORST_SWING));
+        } else if pitches > policy::NOTED_SWING {
+            self.warnings.push(swing(policy::NOTED_SWING));
+        }
+    }
+
+    /// Whether teeth that mesh failed their proof and may be made otherwise.
+    fn can_be_repaired(&self) -> bool {
+        self.options.repair && self.is_proved && !self.is_sound()
     }
 
     /// How many teeth of one period, both gears together, are full, steeper, shortened, blunted.
@@ -159,14 +213,14 @@ pub fn design(
         let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
         let source = Source::fitted([driver, follower], fit, options.fit.symmetric);
         let mut made = tried(&source, &options)?.made;
-        made.simulate_if_sound(&options.runs)?;
+        made.proved()?;
         Ok(made)
     };
     let asked = options.fit.limits.max_lean;
     let mut best = made(asked)?;
     // Another motion with less lean, sought as the first was.
     for less in policy::PROOF_REPAIRS {
-        if !best.can_be_repaired(options) {
+        if !best.can_be_repaired() {
             break;
         }
         let max_lean = asked - less;
@@ -251,7 +305,8 @@ fn tried(source: &Source<'_>, options: &DesignOptions) -> Result<Tried, DesignEr
             }
             let (next, said) = settings.gentler(&best);
             settings = next;
-            let attempt = Attempt::make(source, options, settings)?;
+            // What cannot be made is no reason to give up what has been.
+            let Ok(attempt) = Attempt::make(source, options, settings) else { continue };
             if attempt.badness() < best.badness() {
                 steps.push(format!(
                     "{said}: transmission error {:.2} % of a pitch instead of {:.2} %",
@@ -270,10 +325,10 @@ fn tried(source: &Source<'_>, options: &DesignOptions) -> Result<Tried, DesignEr
 /// Teeth, analysis, repairs, proof: a motion that fails as rigid bodies is held to less lean.
 fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, DesignError> {
     let Tried { made: mut best, settings } = tried(source, options)?;
-    best.simulate_if_sound(&options.runs)?;
+    best.proved()?;
     let steps = best.steps.clone();
     for less in policy::PROOF_REPAIRS {
-        if !best.can_be_repaired(options) {
+        if !best.can_be_repaired() {
             break;
         }
         let gentler = settings.with_less_lean(less);
@@ -281,9 +336,9 @@ fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, Des
         // Where no teeth fit at all the first pair is what there is.
         let Ok(attempt) = attempt else { continue };
         let said = lean_held(gentler.max_lean(), &best.faults);
-        let mut next =
-            attempt.finish(source, options, steps.iter().cloned().chain([said]).collect())?;
-        next.simulate_if_sound(&options.runs)?;
+        let steps = steps.iter().cloned().chain([said]).collect();
+        let Ok(mut next) = attempt.finish(source, options, steps) else { continue };
+        next.proved()?;
         if next.is_sound() {
             best = next;
         }
@@ -293,7 +348,7 @@ fn made_from(source: &Source<'_>, options: &DesignOptions) -> Result<Design, Des
 
 fn lean_held(max_lean: f64, faults: &[String]) -> String {
     format!(
-        "lean held to {:.0} degrees, for the first pair failed when it was run: {}",
+        "lean held to {:.0} degrees, for the first pair failed when it was proved: {}",
         max_lean.to_degrees(),
         faults.join("; ")
     )

@@ -201,7 +201,7 @@ impl fmt::Display for Reason {
             ),
             Self::Swing { angle, pitches, limit } => write!(
                 f,
-                "transmission error {:.2} degrees peak to peak, {:.1} % of a pitch (limit {:.0} %); reduce clearance or lean, or add teeth",
+                "transmission error {:.2} degrees peak to peak, {:.1} % of a pitch (limit {:.0} %); reduce clearance or lean, or try another number of teeth",
                 angle.to_degrees(),
                 100.0 * pitches,
                 100.0 * limit

@@ -110,3 +110,7 @@ pub const FIT_SAMPLES_MOST: usize = 1 << 18;
 pub const PLACEMENT_SAMPLES: usize = 1024;
 /// How far, radians, a follower's drawing may swing from the angle of the fit to overlay its pitch curve best.
 pub const PLACEMENT_SWING: f64 = 0.25;
+/// Play in pitches that fails: teeth so thin beside their gaps take hold at their tips only.
+pub const WORST_PLAY: f64 = 0.45;
+/// Play in pitches that warns.
+pub const NOTED_PLAY: f64 = 0.35;
