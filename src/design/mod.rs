@@ -7,6 +7,7 @@ mod options;
 pub mod outfit;
 mod record;
 mod saved;
+mod settings;
 mod source;
 mod train_file;
 
@@ -29,7 +30,8 @@ use crate::policy;
 use crate::solid::Bore;
 use crate::strength::Strength;
 use crate::teeth::ToothedPair;
-use attempt::{Attempt, Settings};
+use attempt::Attempt;
+use settings::Settings;
 use source::Source;
 
 /// A finished pair of gears and everything that is known of it. Lengths in mm, angles in radians.
@@ -303,7 +305,7 @@ fn tried(source: &Source<'_>, options: &DesignOptions) -> Result<Tried, DesignEr
                     break;
                 }
             }
-            let (next, said) = settings.gentler(&best);
+            let (next, said) = settings.gentler(best.max_lean());
             settings = next;
             // What cannot be made is no reason to give up what has been.
             let Ok(attempt) = Attempt::make(source, options, settings) else { continue };
