@@ -45,9 +45,9 @@ pub(super) fn of_obj(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Tooth
                 let corners = fields
                     .map(|f| {
                         let index: i64 = f.split('/').next()?.parse().ok()?;
-                        let back = vertices.len() as i64 + index;
-                        let index = if index < 0 { back } else { index - 1 };
-                        usize::try_from(index).ok().filter(|i| *i < vertices.len())
+                        let first = if index < 0 { vertices.len() as i64 } else { -1 };
+                        let index = usize::try_from(first.checked_add(index)?).ok();
+                        index.filter(|i| *i < vertices.len())
                     })
                     .collect::<Option<Vec<usize>>>()
                     .filter(|c| c.len() > 2)
