@@ -1160,6 +1160,8 @@ pub const RECORD_LEAST_STEP: f64 = 1e-10;
 /// Factor between a saved module and that of its driver's teeth, at most: the work of contact analysis grows as the
 /// module falls.
 pub const RECORD_MODULE_OFF: f64 = 10.0;
+/// Longest name in a record, bytes: those of files end at 255.
+pub const RECORD_NAME_BYTES: usize = 1024;
 /// Most rings of one saved part, holes or marks: pairs of them are compared.
 pub const RECORD_RINGS: usize = 2000;
 /// Most modules in the length of an outline whose contact is analysed, which sets its work: a gear of 1,000 teeth
@@ -1167,6 +1169,8 @@ pub const RECORD_RINGS: usize = 2000;
 pub const CONTACT_MOST_MODULES: f64 = 1e6;
 /// Fewest and most teeth of a gear under check, whoever says so: the most that a design has.
 pub const TEETH_BELIEVED: (u32, u32) = (COUNT_RANGE.0 as u32, TEETH_RANGE.1);
+/// Characters of a file's text that a message repeats at most: three lines of a terminal.
+pub const QUOTED_LENGTH: usize = 240;
 /// Pairs of ends that are compared while lines of a drawing are joined (under a second): a gear of a million lines
 /// needs a tenth of it.
 pub const CHAIN_TESTS: usize = 50_000_000;

@@ -6,7 +6,7 @@ use crate::assembly::{Fittings, Fixture, Hub, Mark, Opening, Post};
 use crate::geometry::{self, Point};
 use crate::policy;
 
-use super::saved::within_reach;
+use super::saved::{plain_name, within_reach};
 
 type Ring = Vec<[f64; 2]>;
 
@@ -109,6 +109,8 @@ impl FittingsRecord {
     /// # Errors
     /// What is wrong, as half a sentence. Sizes that make no solid are found when one is made.
     pub(super) fn read(self, gear: &str) -> Result<Fittings, String> {
+        let names = self.marks.iter().map(|m| &m.name);
+        names.chain(self.openings.iter().map(|o| &o.name)).try_for_each(|n| plain_name(n))?;
         let edges = self.marks.iter().map(|m| m.face.len()).sum::<usize>();
         few(&format!("its {gear}"), self.openings.len() + edges.max(self.marks.len()))?;
         if let Some(mark) = self.marks.iter().find(|m| m.face.is_empty()) {

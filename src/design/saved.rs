@@ -12,6 +12,7 @@ use super::fittings_record::{FittingsRecord, FixtureRecord};
 use crate::assembly::{Assembly, Fixture, Gear, PlacedGear};
 use crate::geometry::{self, Point};
 use crate::policy;
+use crate::wording::quoted;
 
 /// Name of the record in a design's folder.
 pub const RECORD_NAME: &str = "design.json";
@@ -91,9 +92,9 @@ impl SavedDesign {
     /// # Errors
     /// What is missing or wrong, as half a sentence.
     pub fn from_json(text: &str) -> Result<Self, String> {
-        let file: File = serde_json::from_str(text).map_err(|e| e.to_string())?;
+        let file: File = serde_json::from_str(text).map_err(|e| quoted(&e.to_string()))?;
         if file.units != "mm" {
-            return Err(format!("its units are {:?} instead of \"mm\"", file.units));
+            return Err(format!("its units are {:?} instead of \"mm\"", quoted(&file.units)));
         }
         for (name, value, most) in [
             ("ratio", file.ratio, f64::from(policy::MAX_RATIO)),
@@ -125,6 +126,7 @@ impl SavedDesign {
                 ));
             }
         }
+        file.names.iter().try_for_each(|name| plain_name(name))?;
         let gears = [gear("driver", file.driver)?, gear("follower", file.follower)?];
         let pitch_curve = geometry::perimeter(&gears[0].pitch_curve);
         let module = pitch_curve / (PI * f64::from(gears[0].teeth));
@@ -265,6 +267,17 @@ fn gear(name: &str, file: FileGear) -> Result<Gear, String> {
         teeth: file.teeth,
         fittings: file.fittings.read(name)?,
     })
+}
+
+/// Passes a name that can stand in files and messages.
+pub(super) fn plain_name(name: &str) -> Result<(), String> {
+    if name.len() <= policy::RECORD_NAME_BYTES && !name.contains(char::is_control) {
+        return Ok(());
+    }
+    Err(format!(
+        "it holds the name {:?}, which is too long or has control characters",
+        quoted(name)
+    ))
 }
 
 /// Passes points of a part that is no larger than any that is made; else what is wrong, as the end of a sentence.

@@ -10,6 +10,7 @@ use super::saved::bounded_text;
 use super::{SavedDesign, SavedError};
 use crate::assembly::{Link, MotionError, PairModel, Role, SampledMotion, TrainGear, TrainPlan};
 use crate::policy;
+use crate::wording::quoted;
 
 /// Why a train's file cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -153,9 +154,10 @@ pub fn train_from_toml(text: &str, path: &Path) -> Result<TrainPlan, TrainFileEr
                 gear.name
             )));
         }
-        if ![gear.direction, gear.rise, gear.turn].iter().all(|v| v.is_finite()) {
+        let most = policy::RECORD_REACH;
+        if ![gear.direction, gear.rise, gear.turn].iter().all(|v| v.abs() <= most) {
             return Err(wrong(format!(
-                "gear {:?} has a number that is none; give plain numbers",
+                "gear {:?} has a number beyond {most}, or one that is none; give plain numbers",
                 gear.name
             )));
         }
@@ -198,7 +200,7 @@ fn in_one_line(said: &str) -> String {
         .map(str::trim)
         .filter(|l| !l.is_empty() && !l.starts_with('|') && !l.contains(" | "))
         .collect();
-    lines.join(": ")
+    quoted(&lines.join(": "))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::{
     from_svg, library, smooth,
 };
 use crate::policy;
+use crate::wording::quoted;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -138,7 +139,7 @@ pub fn load(source: &str, options: &LoadOptions) -> Result<Shape, LoadError> {
         (source.to_owned(), outline.map_err(failed)?)
     } else {
         let stem = Path::new(source).file_stem().unwrap_or_default();
-        (stem.to_string_lossy().into_owned(), read_outline(source, options)?)
+        (quoted(&stem.to_string_lossy()), read_outline(source, options)?)
     };
     let outline = smooth(&raw, options.smoothing, options.samples.max(16));
     Ok(Shape { name, raw, outline })
@@ -161,7 +162,7 @@ pub fn shape_from_bytes(
 ) -> Result<Shape, LoadError> {
     bounded(bytes, file_name)?;
     let stem = Path::new(file_name).file_stem().unwrap_or_default();
-    let name = stem.to_string_lossy().into_owned();
+    let name = quoted(&stem.to_string_lossy());
     let raw = outline_from(bytes, file_name, options)?;
     let outline = smooth(&raw, options.smoothing, options.samples.max(16));
     Ok(Shape { name, raw, outline })

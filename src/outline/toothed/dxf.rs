@@ -5,6 +5,7 @@ use super::chain::chained;
 use super::{Asked, Ring, ToothedError, spline};
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
+use crate::wording::quoted;
 use dxf::entities::EntityType;
 use dxf::enums::Units;
 use std::f64::consts::TAU;
@@ -13,7 +14,7 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
     let drawing = dxf::Drawing::load(&mut &bytes[..]).map_err(|e| ToothedError::Malformed {
         path: asked.path(),
         format: "DXF",
-        reason: e.to_string(),
+        reason: quoted(&e.to_string()),
     })?;
     let scale = match drawing.header.default_drawing_units {
         Units::Unitless | Units::Millimeters => 1.0,

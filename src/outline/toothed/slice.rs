@@ -3,6 +3,7 @@
 use super::{Asked, Ring, ToothedError};
 use crate::geometry::Point;
 use crate::policy;
+use crate::wording::quoted;
 use std::collections::HashMap;
 use std::io::Cursor;
 
@@ -22,7 +23,7 @@ pub(super) fn of_stl(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Tooth
 }
 
 fn malformed(asked: &Asked<'_>, format: &'static str, reason: String) -> ToothedError {
-    ToothedError::Malformed { path: asked.path(), format, reason: reason.replace('\n', " ") }
+    ToothedError::Malformed { path: asked.path(), format, reason: quoted(&reason) }
 }
 
 /// An OBJ; with objects `driver` and `follower` the one asked for, else all of it.
