@@ -53,3 +53,4 @@ pub mod scene;
 pub mod solid;
 pub mod strength;
 pub mod teeth;
+mod wording;

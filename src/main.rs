@@ -15,8 +15,8 @@ fn main() -> ExitCode {
     match cli::run(&cli) {
         Ok(outcome) => outcome.exit_code(),
         Err(error) => {
-            // One line, whatever a file name or a library's message contains.
-            eprintln!("error: {}", format!("{error:#}").replace(['\n', '\r'], " "));
+            // One line that steers no terminal, whatever a file name or a library's message contains.
+            eprintln!("error: {}", format!("{error:#}").replace(char::is_control, " "));
             ExitCode::from(cli::BAD_INPUT)
         }
     }

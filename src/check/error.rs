@@ -45,6 +45,20 @@ pub enum CheckError {
         /// `driver` or `follower`.
         gear: &'static str,
     },
+    /// A count of teeth that is out of range.
+    #[error(
+        "the {gear} is said to have {count} teeth; give --teeth N,M with {least} to {most} each"
+    )]
+    TeethRange {
+        /// `driver` or `follower`.
+        gear: &'static str,
+        /// Teeth given, or recorded.
+        count: u32,
+        /// Fewest that are counted.
+        least: u32,
+        /// Most that are counted.
+        most: u32,
+    },
     /// The gears are too far apart at every angle.
     #[error("the gears never touch: {gap:.3} mm are left between them; bring the axes closer")]
     NeverTouch {

@@ -211,6 +211,10 @@ fn set_up(
     let known = teeth.or(record.and_then(|r| r.teeth));
     let counted = |i: usize| {
         let gear = [GearRole::Driver, GearRole::Follower][i].name();
+        let (least, most) = policy::TEETH_BELIEVED;
+        if let Some(count) = known.map(|t| t[i]).filter(|n| !(least..=most).contains(n)) {
+            return Err(CheckError::TeethRange { gear, count, least, most });
+        }
         teeth::teeth(&outlines[i], known.map(|t| t[i])).ok_or(CheckError::NoTeeth { gear })
     };
     let (first, second) = rayon::join(|| counted(0), || counted(1));

@@ -75,8 +75,10 @@ pub(super) fn teeth(outline: &[Point], given: Option<u32>) -> Option<Teeth> {
     if let Some(count) = given.or_else(|| by_angle(&middle, &rises).filter(|_| round)) {
         return Some(whole(count));
     }
-    let likely = ((counted - doubt).round() as u32, (counted + doubt).round() as u32);
-    Some(Teeth { likely, ..whole(counted.round() as u32) })
+    let (least, most) = policy::TEETH_BELIEVED;
+    let bounded = |count: f64| (count.round() as u32).clamp(least, most);
+    let likely = (bounded(counted - doubt), bounded(counted + doubt));
+    Some(Teeth { likely, ..whole(bounded(counted)) })
 }
 
 /// Settles counts that a toothless stretch leaves in doubt: both gears come round after few turns,
@@ -291,7 +293,9 @@ fn by_angle(middle: &[Point], rises: &[f64]) -> Option<u32> {
     let typical = median(spacings(&angles, TAU))?;
     let near = |a: &f64| (a - typical).abs() < 0.1 * typical;
     let single: Vec<f64> = spacings(&angles, TAU).into_iter().filter(near).collect();
-    Some((TAU / mean(&single)).round() as u32)
+    let (least, most) = policy::TEETH_BELIEVED;
+    let count = (TAU / mean(&single)).round();
+    (f64::from(least)..=f64::from(most)).contains(&count).then_some(count as u32)
 }
 
 fn radius_table(middle: &[Point]) -> Vec<f64> {

@@ -91,7 +91,7 @@ pub(crate) fn refused(error: &clap::Error) -> ExitCode {
         // A closed pipe is no reason to fail harder.
         let _ = error.print();
     } else {
-        eprintln!("{}", in_one_line(&error.to_string()));
+        eprintln!("{}", in_one_line(&error.to_string()).replace(char::is_control, " "));
     }
     if error.use_stderr() { ExitCode::from(BAD_INPUT) } else { ExitCode::SUCCESS }
 }

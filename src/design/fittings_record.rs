@@ -4,6 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::assembly::{Fittings, Fixture, Hub, Mark, Opening, Post};
 use crate::geometry::{self, Point};
+use crate::policy;
+
+use super::saved::{plain_name, within_reach};
 
 type Ring = Vec<[f64; 2]>;
 
@@ -63,11 +66,21 @@ fn plain(ring: &[Point]) -> Ring {
 /// A ring that turns as it must: +1 counter-clockwise, -1 clockwise.
 fn ring(what: &str, points: Ring, turn: f64) -> Result<Vec<Point>, String> {
     let points: Vec<Point> = points.into_iter().map(|[x, y]| Point::new(x, y)).collect();
-    let sound = points.len() > 2 && points.iter().all(|p| p.x.is_finite() && p.y.is_finite());
-    if sound && turn * geometry::signed_area(&points) > 0.0 {
+    within_reach(&points).map_err(|far| format!("{what} {far}"))?;
+    if points.len() > 2 && turn * geometry::signed_area(&points) > 0.0 {
         Ok(points)
     } else {
         Err(format!("{what} is not a closed curve that runs the right way round"))
+    }
+}
+
+/// Passes as many rings as can be kept apart in reasonable time.
+fn few(part: &str, rings: usize) -> Result<(), String> {
+    let most = policy::RECORD_RINGS;
+    if rings > most {
+        Err(format!("{part} has {rings} holes and marks, more than {most}"))
+    } else {
+        Ok(())
     }
 }
 
@@ -96,6 +109,19 @@ impl FittingsRecord {
     /// # Errors
     /// What is wrong, as half a sentence. Sizes that make no solid are found when one is made.
     pub(super) fn read(self, gear: &str) -> Result<Fittings, String> {
+        let names = self.marks.iter().map(|m| &m.name);
+        names.chain(self.openings.iter().map(|o| &o.name)).try_for_each(|n| plain_name(n))?;
+        let edges = self.marks.iter().map(|m| m.face.len()).sum::<usize>();
+        few(&format!("its {gear}"), self.openings.len() + edges.max(self.marks.len()))?;
+        if let Some(mark) = self.marks.iter().find(|m| m.face.is_empty()) {
+            return Err(format!("{} of its {gear} has no edge", mark.name));
+        }
+        let heights = self.marks.iter().map(|m| m.height);
+        let hub = self.hub.iter().flat_map(|h| [h.radius, h.height, h.set_screw.unwrap_or(0.0)]);
+        let mut sizes = heights.chain(hub).chain([self.chamfer]);
+        if let Some(size) = sizes.find(|size| size.abs() > policy::RECORD_REACH) {
+            return Err(format!("its {gear} carries something of {size:e} mm"));
+        }
         let openings = self.openings.into_iter().map(|o| {
             let what = format!("{} of its {gear}", o.name);
             Ok(Opening { ring: ring(&what, o.ring, 1.0)?, name: o.name })
@@ -143,6 +169,12 @@ impl FixtureRecord {
             return Err(format!("a fixture is called {:?}", self.name));
         }
         let what = format!("its {}", self.name);
+        few(&what, self.holes.len() + self.posts.len())?;
+        let heights = self.posts.iter().flat_map(|p| [p.from, p.to]);
+        let mut sizes = heights.chain([self.z, self.thickness]);
+        if let Some(size) = sizes.find(|size| size.abs() > policy::RECORD_REACH) {
+            return Err(format!("{what} has a height of {size:e} mm"));
+        }
         let counter_clockwise = |r: Ring| ring(&what, r, 1.0);
         let post = |p: PostRecord| {
             let PostRecord { from, to, ring, hole } = p;

@@ -15,7 +15,7 @@ pub use options::{BoreChoice, DesignError, DesignOptions, Scale, TeethStyle, Too
 pub use record::{Record, run_record};
 pub use saved::{RECORD_NAME, SavedDesign, SavedError};
 pub use source::Drawn;
-pub use train_file::{TrainFileError, read_train};
+pub use train_file::{TrainFileError, read_train, train_from_toml};
 
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::fit::{self, Fit, FittedGear, Objective, Ratio};

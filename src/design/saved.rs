@@ -1,7 +1,8 @@
 //! A finished design read back from its record.
 
+use std::f64::consts::{PI, TAU};
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -11,6 +12,7 @@ use super::fittings_record::{FittingsRecord, FixtureRecord};
 use crate::assembly::{Assembly, Fixture, Gear, PlacedGear};
 use crate::geometry::{self, Point};
 use crate::policy;
+use crate::wording::quoted;
 
 /// Name of the record in a design's folder.
 pub const RECORD_NAME: &str = "design.json";
@@ -71,12 +73,15 @@ impl SavedDesign {
     /// [`SavedError`], naming the file.
     pub fn read(path: &Path) -> Result<Self, SavedError> {
         let file = if path.is_dir() { path.join(RECORD_NAME) } else { path.to_owned() };
-        match fs::read_to_string(&file) {
+        match bounded_text(&file, policy::RECORD_BYTES) {
             Ok(text) => {
                 Self::from_json(&text).map_err(|why| SavedError::NotADesign { path: file, why })
             }
             Err(e) if e.kind() == io::ErrorKind::InvalidData => {
                 Err(SavedError::NotADesign { path: file, why: "it is not text".to_owned() })
+            }
+            Err(e) if e.kind() == io::ErrorKind::FileTooLarge => {
+                Err(SavedError::NotADesign { path: file, why: e.to_string() })
             }
             Err(source) => Err(SavedError::Unreadable { path: file, source }),
         }
@@ -87,18 +92,18 @@ impl SavedDesign {
     /// # Errors
     /// What is missing or wrong, as half a sentence.
     pub fn from_json(text: &str) -> Result<Self, String> {
-        let file: File = serde_json::from_str(text).map_err(|e| e.to_string())?;
+        let file: File = serde_json::from_str(text).map_err(|e| quoted(&e.to_string()))?;
         if file.units != "mm" {
-            return Err(format!("its units are {:?} instead of \"mm\"", file.units));
+            return Err(format!("its units are {:?} instead of \"mm\"", quoted(&file.units)));
         }
-        for (name, value) in [
-            ("ratio", file.ratio),
-            ("center_distance", file.center_distance),
-            ("module", file.module),
-            ("thickness", file.thickness),
+        for (name, value, most) in [
+            ("ratio", file.ratio, f64::from(policy::MAX_RATIO)),
+            ("center_distance", file.center_distance, policy::LARGEST_LENGTH),
+            ("module", file.module, policy::LARGEST_LENGTH),
+            ("thickness", file.thickness, policy::LARGEST_LENGTH),
         ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(format!("its {name} is {value}"));
+            if !(value > 0.0 && value <= most) {
+                return Err(format!("its {name} is {value:e} instead of above 0 and up to {most}"));
             }
         }
         let motion = &file.motion;
@@ -108,12 +113,30 @@ impl SavedDesign {
         for (name, angles) in
             [("driver", &motion.driver_angle), ("follower", &motion.follower_angle)]
         {
-            let rises = angles.len() > 1 && angles[0] == 0.0 && angles.is_sorted_by(|a, b| a < b);
-            if !rises || !angles.iter().all(|a| a.is_finite()) {
+            let steps = angles.windows(2).all(|w| w[1] - w[0] >= policy::RECORD_LEAST_STEP);
+            if angles.len() < 2 || angles[0] != 0.0 || !steps {
                 return Err(format!("its {name} angles do not rise from 0"));
             }
+            let (most, last) = (policy::RECORD_SAMPLES, angles[angles.len() - 1]);
+            let turns = TAU * f64::from(policy::MAX_RATIO) + 1e-6;
+            if angles.len() > most || last > turns {
+                return Err(format!(
+                    "its {} {name} angles go up to {last:e} radians; {most} and {turns:.1} are the most",
+                    angles.len()
+                ));
+            }
         }
+        file.names.iter().try_for_each(|name| plain_name(name))?;
         let gears = [gear("driver", file.driver)?, gear("follower", file.follower)?];
+        let pitch_curve = geometry::perimeter(&gears[0].pitch_curve);
+        let module = pitch_curve / (PI * f64::from(gears[0].teeth));
+        let off = policy::RECORD_MODULE_OFF;
+        if !(module / off..=module * off).contains(&file.module) {
+            return Err(format!(
+                "its module is {:e} mm, that of its driver's teeth {module:e} mm",
+                file.module
+            ));
+        }
         Ok(Self {
             names: file.names,
             ratio: file.ratio,
@@ -156,6 +179,18 @@ impl SavedDesign {
             fixtures: self.fixtures.clone(),
         }
     }
+}
+
+/// The text of a file of at most `limit` bytes; what is longer is [`io::ErrorKind::FileTooLarge`].
+pub(super) fn bounded_text(path: &Path, limit: u64) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    fs::File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit {
+        let said = format!("it has more than {limit} bytes");
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, said));
+    }
+    let not_text = |_| io::Error::new(io::ErrorKind::InvalidData, "it is not text in UTF-8");
+    String::from_utf8(bytes).map_err(not_text)
 }
 
 /// The part of the file that is read; more may stand beside it.
@@ -209,9 +244,7 @@ fn plain_thickness() -> f64 {
 fn gear(name: &str, file: FileGear) -> Result<Gear, String> {
     let ring = |what: &str, points: Vec<[f64; 2]>| -> Result<Vec<Point>, String> {
         let points: Vec<Point> = points.into_iter().map(|[x, y]| Point::new(x, y)).collect();
-        if !points.iter().all(|p| p.x.is_finite() && p.y.is_finite()) {
-            return Err(format!("the {what} of its {name} has a coordinate without bounds"));
-        }
+        within_reach(&points).map_err(|far| format!("the {what} of its {name} {far}"))?;
         if points.len() < 3 || geometry::signed_area(&points) <= 0.0 {
             return Err(format!(
                 "the {what} of its {name} is not a counter-clockwise curve with an area"
@@ -219,18 +252,42 @@ fn gear(name: &str, file: FileGear) -> Result<Gear, String> {
         }
         Ok(points)
     };
-    if file.teeth == 0 {
-        return Err(format!("its {name} has no teeth"));
+    let most = policy::TEETH_RANGE.1;
+    if !(1..=most).contains(&file.teeth) {
+        return Err(format!("its {name} has {} teeth instead of 1 to {most}", file.teeth));
     }
+    let input: Vec<Point> = file.input.into_iter().map(|[x, y]| Point::new(x, y)).collect();
+    within_reach(&input).map_err(|far| format!("the input of its {name} {far}"))?;
     Ok(Gear {
         name: name.to_owned(),
         outline: ring("outline", file.outline)?,
         bore: file.bore.map(|b| ring("bore", b)).transpose()?,
         pitch_curve: ring("pitch curve", file.pitch_curve)?,
-        input: file.input.into_iter().map(|[x, y]| Point::new(x, y)).collect(),
+        input,
         teeth: file.teeth,
         fittings: file.fittings.read(name)?,
     })
+}
+
+/// Passes a name that can stand in files and messages.
+pub(super) fn plain_name(name: &str) -> Result<(), String> {
+    if name.len() <= policy::RECORD_NAME_BYTES && !name.contains(char::is_control) {
+        return Ok(());
+    }
+    Err(format!(
+        "it holds the name {:?}, which is too long or has control characters",
+        quoted(name)
+    ))
+}
+
+/// Passes points of a part that is no larger than any that is made; else what is wrong, as the end of a sentence.
+pub(super) fn within_reach(points: &[Point]) -> Result<(), String> {
+    let most = policy::RECORD_REACH;
+    let near = |p: &Point| p.x.abs() <= most && p.y.abs() <= most;
+    match points.iter().position(|p| !near(p)) {
+        None => Ok(()),
+        Some(index) => Err(format!("has point {index} more than {most} mm from its axis")),
+    }
 }
 
 #[cfg(test)]

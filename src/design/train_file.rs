@@ -1,14 +1,16 @@
 //! A train as a file: saved pairs, and how their gears hang on each other.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use super::saved::bounded_text;
 use super::{SavedDesign, SavedError};
 use crate::assembly::{Link, MotionError, PairModel, Role, SampledMotion, TrainGear, TrainPlan};
+use crate::policy;
+use crate::wording::quoted;
 
 /// Why a train's file cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -104,10 +106,19 @@ enum FileRole {
 /// # Errors
 /// See [`TrainFileError`].
 pub fn read_train(path: &Path) -> Result<TrainPlan, TrainFileError> {
-    let text = fs::read_to_string(path)
+    let text = bounded_text(path, policy::TRAIN_FILE_BYTES)
         .map_err(|source| TrainFileError::Unreadable { path: path.to_owned(), source })?;
+    train_from_toml(&text, path)
+}
+
+/// The train in the text of its file, which stands or would stand at `path`: the designs that it names are looked for
+/// from there.
+///
+/// # Errors
+/// As [`read_train`].
+pub fn train_from_toml(text: &str, path: &Path) -> Result<TrainPlan, TrainFileError> {
     let wrong = |why: String| TrainFileError::NotATrain { path: path.to_owned(), why };
-    let file: File = toml::from_str(&text).map_err(|e| wrong(in_one_line(&e.to_string())))?;
+    let file: File = toml::from_str(text).map_err(|e| wrong(in_one_line(&e.to_string())))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut pairs = Vec::new();
     let mut thickness = f64::INFINITY;
@@ -143,9 +154,10 @@ pub fn read_train(path: &Path) -> Result<TrainPlan, TrainFileError> {
                 gear.name
             )));
         }
-        if ![gear.direction, gear.rise, gear.turn].iter().all(|v| v.is_finite()) {
+        let most = policy::RECORD_REACH;
+        if ![gear.direction, gear.rise, gear.turn].iter().all(|v| v.abs() <= most) {
             return Err(wrong(format!(
-                "gear {:?} has a number that is none; give plain numbers",
+                "gear {:?} has a number beyond {most}, or one that is none; give plain numbers",
                 gear.name
             )));
         }
@@ -188,12 +200,13 @@ fn in_one_line(said: &str) -> String {
         .map(str::trim)
         .filter(|l| !l.is_empty() && !l.starts_with('|') && !l.contains(" | "))
         .collect();
-    lines.join(": ")
+    quoted(&lines.join(": "))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn refused(text: &str) -> String {
         let folder = tempfile::tempdir().unwrap();

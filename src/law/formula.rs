@@ -4,6 +4,7 @@ use exmex::Express;
 
 use super::LawError;
 use crate::policy;
+use crate::wording::quoted;
 
 /// Functions and constants of a formula, besides the angle.
 const NAMES: [&str; 35] = [
@@ -42,10 +43,8 @@ impl Formula {
             return Err(LawError::TooLong { length, most });
         }
         let plain = tidied(text)?;
-        let unreadable = |reason: &str| LawError::Unreadable {
-            text: text.to_owned(),
-            reason: reason.replace(['\n', '\r'], " "),
-        };
+        let unreadable =
+            |reason: &str| LawError::Unreadable { text: text.to_owned(), reason: quoted(reason) };
         let expression =
             exmex::parse::<f64>(&plain).map_err(|error| unreadable(&error.to_string()))?;
         match expression.var_names() {

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::{LawError, LawOptions, Quantity, Segment, closed, from_segment};
 use crate::pitch::{Transmission, solve_cyclic};
 use crate::policy;
+use crate::wording::quoted;
 
 /// Samples of a motion over one period, or over a turn of the driver.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +51,7 @@ impl Table {
                 }
                 rows.push((angle, value));
             } else {
-                let text = data.chars().take(40).collect();
+                let text = quoted(&data.chars().take(40).collect::<String>());
                 return Err(LawError::TableLine { line: index + 1, text });
             }
             header_allowed = false;

@@ -9,7 +9,7 @@
 
 use super::play::{Body, Play, Pose, Touch, free_play};
 use super::summary::ContactSummary;
-use crate::geometry::{Point, Vector, cross};
+use crate::geometry::{Point, Vector, cross, perimeter};
 use crate::policy;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -93,6 +93,16 @@ pub enum ContactError {
         name: &'static str,
         /// What was given.
         value: f64,
+    },
+    /// A module that has nothing to do with the outlines.
+    #[error(
+        "a module of {module:e} mm is too fine for these outlines; give at least {least:.1e} mm"
+    )]
+    TooFine {
+        /// The module given, mm.
+        module: f64,
+        /// The least that is taken, mm.
+        least: f64,
     },
     /// The motion is not finite, or its derivative not positive.
     #[error("the motion is not increasing at driver angle {driver_angle:.6} rad; give one that is")]
@@ -241,10 +251,14 @@ fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), Conta
         ("search range", options.search_pitch),
         ("contact distance", options.contact_distance),
     ];
-    match numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
-        Some((name, value)) => Err(ContactError::NotPositive { name, value }),
-        None => Ok(()),
+    if let Some((name, value)) = numbers.into_iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
+        return Err(ContactError::NotPositive { name, value });
     }
+    let length = perimeter(input.driver).max(perimeter(input.follower));
+    let least = length / policy::CONTACT_MOST_MODULES;
+    // Written so that a length without bounds is refused too.
+    let coarse = input.module >= least;
+    if coarse { Ok(()) } else { Err(ContactError::TooFine { module: input.module, least }) }
 }
 
 fn pose_at(

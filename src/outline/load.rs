@@ -5,6 +5,7 @@ use super::{
     from_svg, library, smooth,
 };
 use crate::policy;
+use crate::wording::quoted;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -138,26 +139,58 @@ pub fn load(source: &str, options: &LoadOptions) -> Result<Shape, LoadError> {
         (source.to_owned(), outline.map_err(failed)?)
     } else {
         let stem = Path::new(source).file_stem().unwrap_or_default();
-        (stem.to_string_lossy().into_owned(), read_outline(source, options)?)
+        (quoted(&stem.to_string_lossy()), read_outline(source, options)?)
     };
     let outline = smooth(&raw, options.smoothing, options.samples.max(16));
     Ok(Shape { name, raw, outline })
 }
 
 fn read_outline(source: &str, options: &LoadOptions) -> Result<Outline, LoadError> {
-    let bytes = read_file(source)?;
+    outline_from(&read_file(source)?, source, options)
+}
+
+/// The shape in the bytes of a drawing: [`load`] for what is in memory.
+///
+/// `file_name` names the shape and is named in messages; its extension decides only where the content does not.
+///
+/// # Errors
+/// As [`load`], less what concerns files.
+pub fn shape_from_bytes(
+    bytes: &[u8],
+    file_name: &str,
+    options: &LoadOptions,
+) -> Result<Shape, LoadError> {
+    bounded(bytes, file_name)?;
+    let stem = Path::new(file_name).file_stem().unwrap_or_default();
+    let name = quoted(&stem.to_string_lossy());
+    let raw = outline_from(bytes, file_name, options)?;
+    let outline = smooth(&raw, options.smoothing, options.samples.max(16));
+    Ok(Shape { name, raw, outline })
+}
+
+fn outline_from(bytes: &[u8], source: &str, options: &LoadOptions) -> Result<Outline, LoadError> {
     let path = source.to_owned();
-    match kind(&bytes, source) {
-        Some(Kind::Svg) => from_svg(&bytes, options.flatten_tolerance)
+    match kind(bytes, source) {
+        Some(Kind::Svg) => from_svg(bytes, options.flatten_tolerance)
             .map_err(|error| LoadError::Svg { path, error }),
         Some(Kind::Image) => {
-            from_image(&bytes, options.threshold).map_err(|error| LoadError::Image { path, error })
+            from_image(bytes, options.threshold).map_err(|error| LoadError::Image { path, error })
         }
         Some(Kind::Columns) => {
-            from_columns(&bytes).map_err(|error| LoadError::Points { path, error })
+            from_columns(bytes).map_err(|error| LoadError::Points { path, error })
         }
-        Some(Kind::Json) => from_json(&bytes).map_err(|error| LoadError::Points { path, error }),
+        Some(Kind::Json) => from_json(bytes).map_err(|error| LoadError::Points { path, error }),
         None => Err(LoadError::Unrecognised { path }),
+    }
+}
+
+/// Refuses a file without content, or with too much.
+pub(super) fn bounded(bytes: &[u8], source: &str) -> Result<(), LoadError> {
+    let limit = policy::INPUT_BYTES;
+    match bytes.len() as u64 {
+        0 => Err(LoadError::Empty { path: source.to_owned() }),
+        length if length > limit => Err(LoadError::TooLarge { path: source.to_owned(), limit }),
+        _ => Ok(()),
     }
 }
 
@@ -180,13 +213,9 @@ pub(super) fn read_file(source: &str) -> Result<Vec<u8>, LoadError> {
     };
     let file = File::open(place).map_err(unreadable)?;
     let mut bytes = Vec::new();
-    let limit = policy::INPUT_BYTES;
-    let length = file.take(limit + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    match length as u64 {
-        0 => Err(LoadError::Empty { path: path() }),
-        length if length > limit => Err(LoadError::TooLarge { path: path(), limit }),
-        _ => Ok(bytes),
-    }
+    file.take(policy::INPUT_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    bounded(&bytes, source)?;
+    Ok(bytes)
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

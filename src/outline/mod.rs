@@ -14,7 +14,7 @@ mod svg;
 mod svg_guard;
 mod toothed;
 
-pub use load::{LoadError, LoadOptions, Shape, load};
+pub use load::{LoadError, LoadOptions, Shape, load, shape_from_bytes};
 pub use normalize::{Similarity, normalized};
 pub(crate) use points::split_fields;
 pub use points::{PointsError, from_columns, from_json};
@@ -23,7 +23,9 @@ pub use silhouette::{ImageError, from_image};
 pub use simplify::simplify;
 pub use smooth::{Smoothing, resample, smooth};
 pub use svg::{SvgError, from_svg};
-pub use toothed::{GearRole, PairRecord, Thinned, Toothed, ToothedError, load_toothed};
+pub use toothed::{
+    GearRole, PairRecord, Thinned, Toothed, ToothedError, load_toothed, toothed_from_bytes,
+};
 
 use crate::geometry::{self, Point};
 use crate::policy;

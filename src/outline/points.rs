@@ -3,6 +3,7 @@
 use super::{Outline, OutlineError, repaired};
 use crate::geometry::Point;
 use crate::policy;
+use crate::wording::quoted;
 use serde_json::Value;
 
 /// Why a list of points could not be read.
@@ -99,11 +100,11 @@ pub(super) fn columns(text: &[u8], limit: usize) -> Result<Vec<Point>, PointsErr
         } else {
             let column = |i: usize| numbers.get(i).copied().flatten().filter(|v| v.is_finite());
             let Some((x, y)) = column(columns.0).zip(column(columns.1)) else {
-                let text = data.chars().take(40).collect();
+                let text = quoted(&data.chars().take(40).collect::<String>());
                 return Err(PointsError::BadLine { line: index + 1, text });
             };
             if points.is_empty() && header_allowed && is_torn(data) {
-                torn = Some((index + 1, data.chars().take(40).collect()));
+                torn = Some((index + 1, quoted(&data.chars().take(40).collect::<String>())));
             }
             torn = torn.filter(|_| is_torn(data));
             points.push(Point::new(x, y));
@@ -168,7 +169,7 @@ pub(super) fn json(text: &[u8], limit: usize) -> Result<Value, PointsError> {
     serde_json::from_str(plain_text(text, limit)?).map_err(|e| PointsError::BadJson {
         line: e.line(),
         column: e.column(),
-        reason: e.to_string().split(" at line ").next().unwrap_or_default().to_owned(),
+        reason: quoted(e.to_string().split(" at line ").next().unwrap_or_default()),
     })
 }
 

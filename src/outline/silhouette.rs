@@ -4,6 +4,7 @@ use super::contour::{Field, largest_contour};
 use super::{Outline, OutlineError, repaired};
 use crate::geometry::Point;
 use crate::policy;
+use crate::wording::quoted;
 use image::{DynamicImage, ImageDecoder, ImageError as DecodeError, ImageReader};
 use std::io::Cursor;
 
@@ -88,7 +89,7 @@ pub fn from_image(bytes: &[u8], threshold: Option<u8>) -> Result<Outline, ImageE
 }
 
 fn decoded(bytes: &[u8]) -> Result<DynamicImage, ImageError> {
-    let damaged = |error: DecodeError| ImageError::Damaged { reason: one_line(&error.to_string()) };
+    let damaged = |error: DecodeError| ImageError::Damaged { reason: quoted(&error.to_string()) };
     let open = || {
         let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().ok()?;
         reader.format().map(|_| reader)
@@ -114,12 +115,6 @@ fn decoded(bytes: &[u8]) -> Result<DynamicImage, ImageError> {
         picture.apply_orientation(orientation);
     }
     Ok(picture)
-}
-
-/// Decoders quote bytes of the file and break lines; a message is one printable line.
-fn one_line(text: &str) -> String {
-    let printable = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>();
-    printable.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// One byte a pixel, low where the silhouette usually is.

@@ -6,6 +6,7 @@ use super::repair::{
 use super::{Outline, OutlineError, check_coordinates, simplify, svg_guard};
 use crate::geometry::{self, Point};
 use crate::policy;
+use crate::wording::quoted;
 use i_overlay::core::fill_rule::FillRule;
 use usvg::tiny_skia_path::PathSegment;
 
@@ -124,7 +125,7 @@ pub fn from_svg(text: &[u8], tolerance: f64) -> Result<Outline, SvgError> {
         usvg::Error::ElementsLimitReached => {
             SvgError::TooManyElements { limit: policy::SVG_ELEMENTS }
         }
-        other => SvgError::NotXml { reason: other.to_string() },
+        other => SvgError::NotXml { reason: quoted(&other.to_string()) },
     })?;
     let mut paths = Vec::new();
     collect_filled(tree.root(), &mut paths);

@@ -3,6 +3,7 @@
 
 use super::SvgError;
 use crate::policy;
+use crate::wording::quoted;
 use std::collections::HashMap;
 use usvg::roxmltree::{Document, Error, Node, NodeId, ParsingOptions};
 
@@ -30,11 +31,11 @@ pub(super) fn checked(text: &[u8]) -> Result<Document<'_>, SvgError> {
     let options = ParsingOptions { allow_dtd: true, nodes_limit: limit, entity_resolver: None };
     let document = Document::parse_with_options(text, options).map_err(|error| match error {
         Error::NodesLimitReached => too_many.clone(),
-        other => SvgError::NotXml { reason: other.to_string() },
+        other => SvgError::NotXml { reason: quoted(&other.to_string()) },
     })?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
-        return Err(SvgError::NotSvg { root: root.tag_name().name().to_owned() });
+        return Err(SvgError::NotSvg { root: quoted(root.tag_name().name()) });
     }
     let ids = document.descendants().rev().filter_map(|n| Some((n.attribute("id")?, n))).collect();
     let mut counter = Counter { ids, known: HashMap::new() };
@@ -112,7 +113,7 @@ impl<'a, 'input> Counter<'a, 'input> {
             }
             Some(State::Done(known)) => return Ok(*known),
             Some(State::Open) => {
-                let id = node.attribute("id").unwrap_or_default().chars().take(40).collect();
+                let id = quoted(node.attribute("id").unwrap_or_default());
                 return Err(SvgError::Circular { id });
             }
             None if above > policy::SVG_DEPTH => return Err(too_deep),

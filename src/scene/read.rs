@@ -2,6 +2,8 @@
 
 use toml::{Table, Value};
 
+use crate::wording::quoted;
+
 use super::{DEFAULT_COMMAND, Key, Kind, SceneError, Setting, nearest, place};
 
 /// The key that names the command.
@@ -28,7 +30,7 @@ pub fn command_of<'a>(
         }
     };
     commands.clone().find(|c| *c == wanted).ok_or_else(|| SceneError::UnknownCommand {
-        command: wanted.to_owned(),
+        command: quoted(wanted),
         hint: match nearest(wanted, commands.clone()) {
             Some(name) => format!("the nearest is {name:?}"),
             None => format!("choose from {}", commands.collect::<Vec<_>>().join(", ")),
@@ -70,7 +72,7 @@ fn parsed(text: &str) -> Result<Table, SceneError> {
         let before = e.span().and_then(|s| text.get(..s.start)).unwrap_or_default();
         SceneError::NotToml {
             line: 1 + before.matches('\n').count(),
-            reason: e.message().replace('\n', ", "),
+            reason: quoted(&e.message().replace('\n', ", ")),
         }
     })
 }
@@ -91,7 +93,7 @@ fn setting(
     };
     if key.table.as_deref() != table {
         return Err(SceneError::WrongPlace {
-            key: name.to_owned(),
+            key: quoted(name),
             place: place(table),
             right: match &key.table {
                 Some(right) => format!("to [{right}]"),
@@ -100,7 +102,7 @@ fn setting(
         });
     }
     let wrong = |value: &Value, wanted| {
-        let key = name.to_owned();
+        let key = quoted(name);
         Err(SceneError::WrongKind { key, found: described(value), wanted })
     };
     let values = match (key.kind, value) {
@@ -143,7 +145,7 @@ fn described(value: &Value) -> String {
         Value::Array(_) => "a list".to_owned(),
         Value::Table(_) => "a table".to_owned(),
         Value::Datetime(_) => "a date".to_owned(),
-        other => other.to_string(),
+        other => quoted(&other.to_string()),
     }
 }
 
@@ -159,7 +161,7 @@ fn unknown_key(name: &str, spelled: &str, table: Option<&str>, keys: &[Key]) -> 
         }
         None => "`--save-scene` of the command writes all that there are".to_owned(),
     };
-    SceneError::UnknownKey { key: name.to_owned(), place: place(table), hint }
+    SceneError::UnknownKey { key: quoted(name), place: place(table), hint }
 }
 
 fn unknown_table(name: &str, spelled: &str, keys: &[Key]) -> SceneError {
@@ -171,7 +173,7 @@ fn unknown_table(name: &str, spelled: &str, keys: &[Key]) -> SceneError {
         None if tables.is_empty() => "this command has none".to_owned(),
         None => format!("choose from {}", tables.join(", ")),
     };
-    SceneError::UnknownTable { table: name.to_owned(), hint }
+    SceneError::UnknownTable { table: quoted(name), hint }
 }
 
 #[cfg(test)]

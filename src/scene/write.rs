@@ -44,15 +44,11 @@ fn line(key: &Key, setting: Option<&Setting>) -> String {
 
 /// A number as it is, anything else in quotes.
 fn literal(text: &str) -> String {
-    let number = text.parse::<i64>().map(|n| n.to_string()).ok().or_else(|| {
-        let value = text.parse::<f64>().ok().filter(|v| v.is_finite())?;
-        Some(format!("{value:?}"))
-    });
-    match number {
-        // Only where nothing is lost: 007 and 1e400 stay as they were typed.
-        Some(number) if number == text => number,
-        _ => quoted(text),
-    }
+    let whole = text.parse::<i64>().is_ok_and(|n| n.to_string() == text);
+    // As a float it must be recognised, and read back as the same text.
+    let float = |v: f64| v.is_finite() && format!("{v:?}") == text && v.to_string() == text;
+    // Only where nothing is lost: 007, 1e5 and -0.0 stay as they were typed, for they may be names.
+    if whole || text.parse().is_ok_and(float) { text.to_owned() } else { quoted(text) }
 }
 
 fn quoted(text: &str) -> String {

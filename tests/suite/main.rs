@@ -6,6 +6,7 @@ mod check;
 mod common;
 mod design;
 mod faults;
+mod found;
 mod gallery;
 mod library;
 mod motion;

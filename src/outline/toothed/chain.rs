@@ -2,11 +2,15 @@
 
 use super::Ring;
 use crate::geometry::Point;
+use crate::policy;
 use std::collections::HashMap;
 
-/// Joins open pieces (of at least two points) where their ends lie within `gap`; O(n). Pieces that
-/// are left over make open rings.
-pub(super) fn chained(pieces: Vec<Vec<Point>>, gap: f64) -> Vec<Ring> {
+/// Joins open pieces (of at least two points, every coordinate within some 10^15 gaps of zero) where their ends lie
+/// within `gap`. Pieces that are left over make open rings.
+///
+/// O(n) for ends that lie apart; `None` where so many lie close together that it would take more than
+/// [`policy::CHAIN_TESTS`].
+pub(super) fn chained(pieces: Vec<Vec<Point>>, gap: f64) -> Option<Vec<Ring>> {
     let cell = |p: Point| ((p.x / gap).floor() as i64, (p.y / gap).floor() as i64);
     let mut ends: HashMap<(i64, i64), Vec<(usize, bool)>> = HashMap::new();
     for (i, piece) in pieces.iter().enumerate() {
@@ -16,11 +20,13 @@ pub(super) fn chained(pieces: Vec<Vec<Point>>, gap: f64) -> Vec<Ring> {
         }
     }
     let mut used = vec![false; pieces.len()];
-    let nearest = |at: Point, used: &[bool]| -> Option<(usize, bool)> {
+    let around = |at: Point| {
         let (column, row) = cell(at);
-        let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (column + dx, row + dy)));
-        around
-            .filter_map(|key| ends.get(&key))
+        let keys = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| (column + dx, row + dy)));
+        keys.filter_map(|key| ends.get(&key))
+    };
+    let nearest = |at: Point, used: &[bool]| -> Option<(usize, bool)> {
+        around(at)
             .flatten()
             .filter(|(i, _)| !used[*i])
             .map(|&(i, last)| {
@@ -32,6 +38,7 @@ pub(super) fn chained(pieces: Vec<Vec<Point>>, gap: f64) -> Vec<Ring> {
             .map(|(_, i, last)| (i, last))
     };
     let mut rings = Vec::new();
+    let mut tests = 0;
     for start in 0..pieces.len() {
         if used[start] || pieces[start].len() < 2 {
             continue;
@@ -40,7 +47,12 @@ pub(super) fn chained(pieces: Vec<Vec<Point>>, gap: f64) -> Vec<Ring> {
         let mut points = pieces[start].clone();
         // Onwards from the last point, then from the first.
         for _ in 0..2 {
-            while let Some((i, reversed)) = points.last().and_then(|&end| nearest(end, &used)) {
+            while let Some(&end) = points.last() {
+                tests += around(end).map(Vec::len).sum::<usize>();
+                if tests > policy::CHAIN_TESTS {
+                    return None;
+                }
+                let Some((i, reversed)) = nearest(end, &used) else { break };
                 used[i] = true;
                 if reversed {
                     points.extend(pieces[i].iter().rev().skip(1));
@@ -56,5 +68,21 @@ pub(super) fn chained(pieces: Vec<Vec<Point>>, gap: f64) -> Vec<Ring> {
         }
         rings.push(Ring { points, closed });
     }
-    rings
+    Some(rings)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crowd_of_ends_is_given_up_soon() {
+        let crowd = |n: u32| -> Vec<Vec<Point>> {
+            let at = |i: u32| Point::new(1e-9 * f64::from(i), 0.0);
+            (0..n).map(|i| vec![at(i), at(i + 1)]).collect()
+        };
+        let joined = chained(crowd(100), 1e-6).unwrap();
+        assert_eq!((joined.len(), joined[0].points.len()), (1, 101));
+        assert!(chained(crowd(50_000), 1e-6).is_none());
+    }
 }

@@ -5,6 +5,7 @@ use super::super::{OutlineError, SvgError, svg_guard};
 use super::{Asked, Ring, ToothedError};
 use crate::geometry::Point;
 use crate::policy;
+use crate::wording::quoted;
 
 /// Every path counts by its middle line, whatever its paint.
 const STYLE: &str = "\
@@ -29,7 +30,7 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
     let tree = usvg::Tree::from_xmltree(&document, &options).map_err(|error| {
         failed(match error {
             usvg::Error::InvalidSize => SvgError::NoSize,
-            other => SvgError::NotXml { reason: other.to_string() },
+            other => SvgError::NotXml { reason: quoted(&other.to_string()) },
         })
     })?;
     let scale = scale(document.root_element(), f64::from(tree.size().width()));

@@ -1,9 +1,11 @@
 //! Contours of DXF drawings: polylines with bulges, chains of lines and arcs, circles, splines.
 
+use super::super::{OutlineError, check_coordinates};
 use super::chain::chained;
 use super::{Asked, Ring, ToothedError, spline};
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
+use crate::wording::quoted;
 use dxf::entities::EntityType;
 use dxf::enums::Units;
 use std::f64::consts::TAU;
@@ -12,7 +14,7 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
     let drawing = dxf::Drawing::load(&mut &bytes[..]).map_err(|e| ToothedError::Malformed {
         path: asked.path(),
         format: "DXF",
-        reason: e.to_string(),
+        reason: quoted(&e.to_string()),
     })?;
     let scale = match drawing.header.default_drawing_units {
         Units::Unitless | Units::Millimeters => 1.0,
@@ -26,10 +28,13 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
         }
     };
     let wanted = wanted_layer(&drawing, asked)?;
+    let refused = |error| ToothedError::Outline { path: asked.path(), error };
     let mut skeletons: Vec<(&str, Vec<Piece>)> = Vec::new();
     for entity in drawing.entities() {
         let made = pieces(&entity.specific)
             .map_err(|kind| ToothedError::Entity { path: asked.path(), kind })?;
+        check_coordinates(&made.iter().flat_map(Piece::marks).collect::<Vec<_>>())
+            .map_err(refused)?;
         skeletons.push((&entity.common.layer, made));
     }
     let extent = |of: &mut dyn Iterator<Item = &Piece>| {
@@ -50,11 +55,16 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
     let chord = policy::TOOTHED_CHORD * diagonal;
     let mut rings = Vec::new();
     let mut open = Vec::new();
+    let mut vertices = 0;
     for (_, skeleton) in skeletons {
         let mut points: Vec<Point> = Vec::new();
         for piece in skeleton {
             let more = piece.flattened(chord);
             let repeated = usize::from(!points.is_empty());
+            vertices += more.len();
+            if vertices > policy::TOOTHED_VERTICES {
+                return Err(refused(OutlineError::TooIntricate));
+            }
             points.extend(more.into_iter().skip(repeated));
         }
         if points.len() > 3 && points.first() == points.last() {
@@ -64,7 +74,8 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
             open.push(points);
         }
     }
-    rings.extend(chained(open, policy::CHAIN_GAP * diagonal));
+    let joined = chained(open, policy::CHAIN_GAP * diagonal);
+    rings.extend(joined.ok_or_else(|| refused(OutlineError::TooIntricate))?);
     for ring in &mut rings {
         ring.points.iter_mut().for_each(|p| p.coords *= scale);
     }

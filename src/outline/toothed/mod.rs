@@ -8,7 +8,7 @@ mod json;
 mod slice;
 mod spline;
 
-use super::load::read_file;
+use super::load::{bounded, read_file};
 use super::{LoadError, Outline, OutlineError, PointsError, SvgError, points, simplify};
 use crate::geometry::curves::without_barbs;
 use crate::geometry::{self, Point};
@@ -40,7 +40,7 @@ impl GearRole {
 pub struct Toothed {
     /// The outer boundary.
     pub outline: Outline,
-    /// Its holes, each counter-clockwise, the largest first.
+    /// Its holes, each counter-clockwise, the largest first; of very many the widest [`policy::TOOTHED_HOLES`].
     pub holes: Vec<Outline>,
     /// How the boundary was thinned, if it had too many vertices or crossed itself by a hair.
     pub thinned: Option<Thinned>,
@@ -207,21 +207,40 @@ pub fn load_toothed(source: &str, role: GearRole) -> Result<Toothed, ToothedErro
         LoadError::Unknown { name, .. } => LoadError::Missing { path: name },
         other => other,
     })?;
-    let asked = Asked { path: &file, part, role };
-    let (rings, record) = match kind(&bytes, &file) {
-        Some(Kind::Svg) => (drawing::rings(&bytes, &asked)?, None),
-        Some(Kind::Dxf) => (dxf::rings(&bytes, &asked)?, None),
-        Some(Kind::Stl) => (slice::of_stl(&bytes, &asked)?, None),
-        Some(Kind::Obj) => (slice::of_obj(&bytes, &asked)?, None),
-        Some(Kind::Json) => json::rings(&bytes, &asked)?,
+    read(&bytes, &Asked { path: &file, part, role })
+}
+
+/// The finished gear in the bytes of a file: [`load_toothed`] for what is in memory.
+///
+/// `file_name` is named in messages, and its extension tells the format. `part` is what follows `#` there.
+///
+/// # Errors
+/// As [`load_toothed`], less what concerns files.
+pub fn toothed_from_bytes(
+    bytes: &[u8],
+    file_name: &str,
+    part: Option<&str>,
+    role: GearRole,
+) -> Result<Toothed, ToothedError> {
+    bounded(bytes, file_name)?;
+    read(bytes, &Asked { path: file_name, part, role })
+}
+
+fn read(bytes: &[u8], asked: &Asked<'_>) -> Result<Toothed, ToothedError> {
+    let (rings, record) = match kind(bytes, asked.path) {
+        Some(Kind::Svg) => (drawing::rings(bytes, asked)?, None),
+        Some(Kind::Dxf) => (dxf::rings(bytes, asked)?, None),
+        Some(Kind::Stl) => (slice::of_stl(bytes, asked)?, None),
+        Some(Kind::Obj) => (slice::of_obj(bytes, asked)?, None),
+        Some(Kind::Json) => json::rings(bytes, asked)?,
         Some(Kind::Columns) => {
-            let points = points::columns(&bytes, policy::INPUT_BYTES as usize)
-                .map_err(|error| ToothedError::Points { path: file.clone(), error })?;
+            let points = points::columns(bytes, policy::INPUT_BYTES as usize)
+                .map_err(|error| ToothedError::Points { path: asked.path(), error })?;
             (vec![implicitly_closed(points)], None)
         }
-        None => return Err(ToothedError::Unrecognised { path: file }),
+        None => return Err(ToothedError::Unrecognised { path: asked.path() }),
     };
-    let mut gear = assemble(rings, &file)?;
+    let mut gear = assemble(rings, asked.path)?;
     gear.record = record;
     Ok(gear)
 }
@@ -321,6 +340,7 @@ fn assemble(rings: Vec<Ring>, path: &str) -> Result<Toothed, ToothedError> {
     // A contour that encloses no area or crosses the gear's boundary, as a pitch curve does, is no
     // hole; decorations are no business of ours.
     let mut holes: Vec<Outline> = rings
+        .take(policy::TOOTHED_HOLES)
         .filter_map(|r| Outline::new(thinned_hole(r.points)).ok())
         .filter(|hole| hole.points().iter().all(|p| outline.contains(*p)))
         .collect();

@@ -3,6 +3,7 @@
 use super::{Asked, Ring, ToothedError};
 use crate::geometry::Point;
 use crate::policy;
+use crate::wording::quoted;
 use std::collections::HashMap;
 use std::io::Cursor;
 
@@ -22,7 +23,7 @@ pub(super) fn of_stl(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Tooth
 }
 
 fn malformed(asked: &Asked<'_>, format: &'static str, reason: String) -> ToothedError {
-    ToothedError::Malformed { path: asked.path(), format, reason: reason.replace('\n', " ") }
+    ToothedError::Malformed { path: asked.path(), format, reason: quoted(&reason) }
 }
 
 /// An OBJ; with objects `driver` and `follower` the one asked for, else all of it.
@@ -45,9 +46,9 @@ pub(super) fn of_obj(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Tooth
                 let corners = fields
                     .map(|f| {
                         let index: i64 = f.split('/').next()?.parse().ok()?;
-                        let back = vertices.len() as i64 + index;
-                        let index = if index < 0 { back } else { index - 1 };
-                        usize::try_from(index).ok().filter(|i| *i < vertices.len())
+                        let first = if index < 0 { vertices.len() as i64 } else { -1 };
+                        let index = usize::try_from(first.checked_add(index)?).ok();
+                        index.filter(|i| *i < vertices.len())
                     })
                     .collect::<Option<Vec<usize>>>()
                     .filter(|c| c.len() > 2)

@@ -1,9 +1,10 @@
 //! Points on B-spline curves.
 
 use crate::geometry::Point;
+use crate::policy;
 
-/// The rational B-spline curve of `degree` at even parameters, `per_span` to a knot span; `None`
-/// when knots, weights and control points do not belong together. Empty `weights` are all one.
+/// The rational B-spline curve of `degree`, [`policy::SPLINE_DEGREE`] at most, at even parameters, `per_span` to a knot
+/// span; `None` when knots, weights and control points do not belong together. Empty `weights` are all one.
 pub(super) fn points(
     degree: usize,
     knots: &[f64],
@@ -12,7 +13,7 @@ pub(super) fn points(
     per_span: usize,
 ) -> Option<Vec<Point>> {
     let n = control.len();
-    let fits = degree >= 1
+    let fits = (1..=policy::SPLINE_DEGREE).contains(&degree)
         && n > degree
         && knots.len() == n + degree + 1
         && (weights.is_empty() || weights.len() == n)

@@ -1,0 +1,37 @@
+//! Bounds on files that are read back.
+
+use super::{COUNT_RANGE, LARGEST_LENGTH, MAX_RATIO, MOTION_SAMPLES, TEETH_RANGE};
+
+/// Longest record of a design, bytes: ten times what a pair of 1,000 teeth takes. A list of small numbers takes 16
+/// times its text in memory.
+pub const RECORD_BYTES: u64 = 16 << 20;
+/// Longest file of a train, bytes: [`super::TRAIN_MOST_GEARS`] gears take a hundredth of it.
+pub const TRAIN_FILE_BYTES: u64 = 1 << 20;
+/// Farthest that a point of a saved part may lie from its axis, mm: ten times [`LARGEST_LENGTH`].
+pub const RECORD_REACH: f64 = 10.0 * LARGEST_LENGTH;
+/// Most samples of a saved motion: twice [`MOTION_SAMPLES`] for each turn at the greatest ratio.
+pub const RECORD_SAMPLES: usize = 2 * MOTION_SAMPLES * MAX_RATIO as usize;
+/// Least step of a saved motion, radians: a follower at a thousandth of a speed that is a hundredth of the driver's
+/// still steps a hundred times as far.
+pub const RECORD_LEAST_STEP: f64 = 1e-10;
+/// Factor between a saved module and that of its driver's teeth, at most: the work of contact analysis grows as the
+/// module falls.
+pub const RECORD_MODULE_OFF: f64 = 10.0;
+/// Longest name in a record, bytes: those of files end at 255.
+pub const RECORD_NAME_BYTES: usize = 1024;
+/// Most rings of one saved part, holes or marks: pairs of them are compared.
+pub const RECORD_RINGS: usize = 2000;
+/// Most modules in the length of an outline whose contact is analysed, which sets its work: a gear of 1,000 teeth
+/// has 10,000.
+pub const CONTACT_MOST_MODULES: f64 = 1e6;
+/// Fewest and most teeth of a gear under check, whoever says so: the most that a design has.
+pub const TEETH_BELIEVED: (u32, u32) = (COUNT_RANGE.0 as u32, TEETH_RANGE.1);
+/// Characters of a file's text that a message repeats at most: three lines of a terminal.
+pub const QUOTED_LENGTH: usize = 240;
+/// Pairs of ends that are compared while lines of a drawing are joined (under a second): a gear of a million lines
+/// needs a tenth of it.
+pub const CHAIN_TESTS: usize = 50_000_000;
+/// Highest degree of a spline: drawing programs stop at 25, and the work grows with its square.
+pub const SPLINE_DEGREE: usize = 25;
+/// Holes of a finished gear that are looked at: they only tell where its axis is.
+pub const TOOTHED_HOLES: usize = 256;
