@@ -36,3 +36,7 @@ pub const SAME_ANGLE: f64 = 1e-6;
 pub const THIN_WALL: f64 = 0.5;
 /// Chord of the rounded corners of the body in that check, radians of arc.
 pub const BODY_CHORD: f64 = 0.3;
+/// Area (relative) that rounding may add to a star-shaped curve without its being called lost.
+pub const STAR_SHAPED_WITHIN: f64 = 1e-9;
+/// Greatest K or 1/K: beyond it the small gear's features vanish beside the large gear's.
+pub const MAX_RATIO: u32 = 100;

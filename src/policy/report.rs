@@ -24,10 +24,6 @@ pub const PLOT_POINTS: usize = 800;
 pub const CLOSE_UP_PITCHES: f64 = 6.0;
 /// Least radius of a shape about a rotation centre over its greatest; below it the centre counts as on the boundary.
 pub const MIN_RELATIVE_RADIUS: f64 = 1e-6;
-/// Area (relative) that rounding may add to a star-shaped curve without its being called lost.
-pub const STAR_SHAPED_WITHIN: f64 = 1e-9;
-/// Greatest K or 1/K: beyond it the small gear's features vanish beside the large gear's.
-pub const MAX_RATIO: u32 = 100;
 /// Default lean bound, radians (60 degrees): steeper flanks bind under friction and swing by clearance.
 pub const DEFAULT_MAX_LEAN: f64 = std::f64::consts::FRAC_PI_3;
 /// Relative excess over a bound that counts as rounding.

@@ -81,8 +81,9 @@ mod tests {
             let at = |i: u32| Point::new(1e-9 * f64::from(i), 0.0);
             (0..n).map(|i| vec![at(i), at(i + 1)]).collect()
         };
+        // Both ends of the chain lie within the gap too: a ring.
         let joined = chained(crowd(100), 1e-6).unwrap();
-        assert_eq!((joined.len(), joined[0].points.len()), (1, 101));
+        assert_eq!((joined.len(), joined[0].points.len(), joined[0].closed), (1, 100, true));
         assert!(chained(crowd(50_000), 1e-6).is_none());
     }
 }
