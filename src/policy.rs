@@ -216,8 +216,9 @@ pub const WELD_DISTANCE: f64 = 1e-8;
 /// Largest image, pixels. A silhouette needs one; at four bytes this is 160 MB while decoding.
 pub const IMAGE_PIXELS: u64 = 40_000_000;
 
-/// Most memory an image decoder may take, bytes (eight bytes a pixel and its own buffers).
-pub const IMAGE_ALLOCATION: u64 = 512 << 20;
+/// Most memory an image decoder may take, bytes: eight bytes a pixel and its own buffers. Floating-point TIFFs of the most
+/// pixels take more and are refused, so that reading stays below 500 MB.
+pub const IMAGE_ALLOCATION: u64 = 400 << 20;
 
 /// Images above this many pixels are averaged down before tracing: the contour then still has
 /// several times more points than an outline keeps.
@@ -1152,8 +1153,8 @@ pub const RECORD_BYTES: u64 = 16 << 20;
 pub const TRAIN_FILE_BYTES: u64 = 1 << 20;
 /// Farthest that a point of a saved part may lie from its axis, mm: ten times [`LARGEST_LENGTH`].
 pub const RECORD_REACH: f64 = 10.0 * LARGEST_LENGTH;
-/// Most samples of a saved motion: twice [`MOTION_SAMPLES`] for each turn at the greatest ratio.
-pub const RECORD_SAMPLES: usize = 2 * MOTION_SAMPLES * MAX_RATIO as usize;
+/// Most samples of a saved motion: a thousand periods of [`MOTION_SAMPLES`].
+pub const RECORD_SAMPLES: usize = 1 << 20;
 /// Least step of a saved motion, radians: a follower at a thousandth of a speed that is a hundredth of the driver's
 /// still steps a hundred times as far.
 pub const RECORD_LEAST_STEP: f64 = 1e-10;
