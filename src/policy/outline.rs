@@ -75,8 +75,9 @@ pub const WELD_DISTANCE: f64 = 1e-8;
 /// Largest image, pixels. A silhouette needs one; at four bytes this is 160 MB while decoding.
 pub const IMAGE_PIXELS: u64 = 40_000_000;
 
-/// Most memory an image decoder may take, bytes (eight bytes a pixel and its own buffers).
-pub const IMAGE_ALLOCATION: u64 = 512 << 20;
+/// Most memory an image decoder may take, bytes: eight bytes a pixel and its own buffers. Floating-point TIFFs of the most
+/// pixels take more and are refused, so that reading stays below 500 MB.
+pub const IMAGE_ALLOCATION: u64 = 400 << 20;
 
 /// Images above this many pixels are averaged down before tracing: the contour then still has
 /// several times more points than an outline keeps.

@@ -1,6 +1,6 @@
 //! Bounds on files that are read back.
 
-use super::{COUNT_RANGE, LARGEST_LENGTH, MAX_RATIO, MOTION_SAMPLES, TEETH_RANGE};
+use super::{COUNT_RANGE, LARGEST_LENGTH, TEETH_RANGE};
 
 /// Longest record of a design, bytes: ten times what a pair of 1,000 teeth takes. A list of small numbers takes 16
 /// times its text in memory.
@@ -9,8 +9,8 @@ pub const RECORD_BYTES: u64 = 16 << 20;
 pub const TRAIN_FILE_BYTES: u64 = 1 << 20;
 /// Farthest that a point of a saved part may lie from its axis, mm: ten times [`LARGEST_LENGTH`].
 pub const RECORD_REACH: f64 = 10.0 * LARGEST_LENGTH;
-/// Most samples of a saved motion: twice [`MOTION_SAMPLES`] for each turn at the greatest ratio.
-pub const RECORD_SAMPLES: usize = 2 * MOTION_SAMPLES * MAX_RATIO as usize;
+/// Most samples of a saved motion: a thousand periods of [`super::MOTION_SAMPLES`].
+pub const RECORD_SAMPLES: usize = 1 << 20;
 /// Least step of a saved motion, radians: a follower at a thousandth of a speed that is a hundredth of the driver's
 /// still steps a hundred times as far.
 pub const RECORD_LEAST_STEP: f64 = 1e-10;

@@ -13,7 +13,7 @@ pub(super) type Contours = (Vec<Ring>, Option<PairRecord>);
 /// record with such an object under `driver` and `follower`.
 pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Contours, ToothedError> {
     let failed = |error| ToothedError::Points { path: asked.path(), error };
-    let document = json(bytes, policy::INPUT_BYTES as usize).map_err(failed)?;
+    let document = json(bytes, policy::POINT_FILE_BYTES).map_err(failed)?;
     let part = asked.part.unwrap_or(asked.role.name());
     let (gear, record) = match document.get(part) {
         Some(gear) => (gear, record(&document, asked.path)),
