@@ -16,8 +16,21 @@ fn main() -> ExitCode {
         Ok(outcome) => outcome.exit_code(),
         Err(error) => {
             // One line that steers no terminal, whatever a file name or a library's message contains.
-            eprintln!("error: {}", format!("{error:#}").replace(char::is_control, " "));
+            eprintln!("error: {}", told(&error).replace(char::is_control, " "));
             ExitCode::from(cli::BAD_INPUT)
         }
     }
+}
+
+/// What failed and why, from the outermost to the innermost cause; a cause that has been quoted is not said again.
+fn told(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |said, cause| {
+        if said.is_empty() {
+            cause
+        } else if said.contains(&cause) {
+            said
+        } else {
+            format!("{said}: {cause}")
+        }
+    })
 }

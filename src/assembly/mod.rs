@@ -58,6 +58,16 @@ impl PlacedGear {
     }
 }
 
+impl Assembly {
+    /// Whether the gears swing there and back instead of turning round and round: the driver then ends where it began,
+    /// and [`Assembly::driver_angle`] is the way it has gone, back as well as there.
+    #[must_use]
+    pub fn swings(&self) -> bool {
+        let ends = self.gears.first().and_then(|g| g.angle.first().zip(g.angle.last()));
+        ends.is_some_and(|(first, last)| last <= first)
+    }
+}
+
 /// Gears in mesh and one whole cycle of their motion. All axes are parallel to z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assembly {

@@ -33,6 +33,11 @@ pub enum MotionError {
         /// Index of the sample, from zero.
         index: usize,
     },
+    /// The gears are sectors.
+    #[error(
+        "the gears are cut to sectors that swing over a part of a turn; give a pair made without --sector"
+    )]
+    Swings,
     /// The assembly is not a pair.
     #[error("the assembly has {count} gears; give a pair")]
     NotAPair {

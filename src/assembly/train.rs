@@ -159,6 +159,16 @@ pub enum TrainError {
         /// What would be accepted, radians.
         allowed: f64,
     },
+    /// The laws of the meshes add up to a motion that no teeth bear.
+    #[error("{gear} would turn {speed:.0} times as fast as the first gear when that stands at {:.0} degrees; use fewer gears, bend the train (--layout zigzag), or take a pair whose speed changes less", at.to_degrees())]
+    TooFast {
+        /// The gear.
+        gear: String,
+        /// Its greatest speed over that of the first gear.
+        speed: f64,
+        /// Driver angle there, radians.
+        at: f64,
+    },
     /// The motion does not repeat within the cycles that are looked through.
     #[error(
         "the train does not come back to its first pose within {} turns of its driver; use pairs of simpler ratios",
@@ -243,6 +253,7 @@ impl TrainPlan {
                 angle.push(rotation - start);
             }
         }
+        self.check_speeds(&driver_angle, &angles)?;
         let mut meshes = Vec::new();
         let mut fixed = Vec::new();
         for (i, gear) in self.gears.iter().enumerate() {
@@ -387,6 +398,26 @@ impl TrainPlan {
             })
             .map(|n| (one * n as f64, n))
             .ok_or(TrainError::NeverRepeats)
+    }
+
+    /// No gear may pass more than [`policy::TRAIN_TEETH_PER_SAMPLE`] of its teeth from one motion sample to the next.
+    fn check_speeds(&self, driver_angle: &[f64], angles: &[Vec<f64>]) -> Result<(), TrainError> {
+        for (gear, angle) in self.gears.iter().zip(angles) {
+            let teeth = self.pairs[gear.pair].gears[gear.role.number()].teeth.max(1);
+            let fastest = (1..angle.len())
+                .map(|k| (k, (angle[k] - angle[k - 1]).abs()))
+                .max_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((k, step)) = fastest else { continue };
+            // Written so that an angle that is no number is refused too.
+            if !(step <= policy::TRAIN_TEETH_PER_SAMPLE * TAU / f64::from(teeth)) {
+                return Err(TrainError::TooFast {
+                    gear: gear.name.clone(),
+                    speed: step / (driver_angle[k] - driver_angle[k - 1]),
+                    at: driver_angle[k],
+                });
+            }
+        }
+        Ok(())
     }
 
     /// What a mesh that closes a ring asks of its second gear must be what that gear does.

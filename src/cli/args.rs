@@ -298,6 +298,9 @@ pub(crate) struct MotionArgs {
     /// End of that part, degrees of the driver
     #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true, requires = "from")]
     pub(crate) to: Option<f64>,
+    /// Cut both gears to the teeth that mesh in that part; they swing there and back
+    #[arg(long, requires = "to")]
+    pub(crate) sector: bool,
     #[command(flatten)]
     pub(crate) pair: PairArgs,
 }

@@ -8,7 +8,7 @@ use anyhow::Context;
 use centrode::check::{
     CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns,
 };
-use centrode::meshing::{DynamicsOptions, Reason, Verdict};
+use centrode::meshing::{Direction, DynamicsOptions, Reason, Verdict};
 use centrode::outline::{GearRole, load_toothed};
 use serde::Serialize;
 
@@ -107,8 +107,8 @@ fn human(report: &CheckReport, seconds: f64) -> String {
     for run in &report.runs {
         let s = &run.summary;
         lines.push(format!(
-            "run {:?}: {} steps, {:.4} degrees RMS from contact, {:.0} % of the work arrives",
-            run.options.direction,
+            "run {}: {} steps, {:.4} degrees RMS from contact, {:.0} % of the work arrives",
+            if run.options.direction == Direction::Backward { "backward" } else { "forward" },
             run.steps.len(),
             s.tracking_rms.to_degrees(),
             100.0 * s.efficiency

@@ -41,9 +41,9 @@ pub(crate) fn write_parts(
     ];
     let mut files = Vec::new();
     for (format, writer) in formats {
-        // A MuJoCo scene holds no shared axles; it is refused only where it was asked for by name.
+        // A MuJoCo scene holds no shared axles and no sectors; it is refused only where it was asked for by name.
         let possible = format != Format::Mjcf
-            || parts.assembly.axles.is_empty()
+            || (parts.assembly.axles.is_empty() && !parts.assembly.swings())
             || args.export.contains(&format);
         if args.wants(format) && possible {
             files.extend(writer.write(parts, folder)?);

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, anyhow, bail};
-use centrode::design::from_motion;
+use centrode::design::{DesignOptions, from_motion};
 use centrode::law::{Formula, LawOptions, Quantity, Segment, Table, from_function, from_segment};
 use centrode::pitch::Transmission;
 use centrode::policy;
@@ -23,10 +23,15 @@ pub(crate) fn run(args: &MotionArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::new();
     let (transmission, names) = motion(args)?;
     let making = args.pair.making();
-    let options = making.options(args.ratio);
+    let sector = segment(args).filter(|_| args.sector);
+    let options = DesignOptions { sector, ..making.options(args.ratio) };
     progress.doing("laying teeth on the pitch curves");
     let made = from_motion(transmission, names, [None, None], &options)?;
     making.deliver(&made, &progress, start)
+}
+
+fn segment(args: &MotionArgs) -> Option<Segment> {
+    args.from.zip(args.to).map(|(from, to)| Segment { from, to })
 }
 
 /// The motion, and what the gears are called.
@@ -44,7 +49,7 @@ fn motion(args: &MotionArgs) -> anyhow::Result<(Transmission, [String; 2])> {
         }
     };
     let options = with(quantity);
-    let segment = args.from.zip(args.to).map(|(from, to)| Segment { from, to });
+    let segment = segment(args);
     let path = Path::new(text);
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if TABLES.contains(&extension.as_str()) {

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use centrode::design::{Design, run_record};
+use centrode::meshing::ContactPose;
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section, Verdict};
-use centrode::teeth::Side;
+use centrode::teeth::{Side, cycle_periods};
 use serde_json::json;
 
 /// Samples of a curve on the page.
@@ -142,7 +143,9 @@ pub(crate) fn summary(
         folder.display(),
         elapsed.as_secs_f64()
     )?;
-    writeln!(out, "open {}", folder.join("report.html").display())?;
+    if let Some(page) = files.iter().find(|f| f.ends_with("report.html")) {
+        writeln!(out, "open {}", page.display())?;
+    }
     Ok(())
 }
 
@@ -180,11 +183,15 @@ pub(crate) fn page(made: &Design) -> ReportData {
             .collect(),
         plots: plots(made)
             .into_iter()
-            .chain(made.proof.iter().flat_map(super::proof::plots))
+            .chain(
+                made.proof.iter().filter(|_| !made.assembly.swings()).flat_map(super::proof::plots),
+            )
             .collect(),
+        // Those of sectors are known for the whole gears only.
         contacts: made
             .proof
             .as_ref()
+            .filter(|_| !made.assembly.swings())
             .map(|p| {
                 super::proof::contacts(
                     p,
@@ -374,24 +381,41 @@ fn strength_section(made: &Design) -> Section {
 
 fn plots(made: &Design) -> Vec<Plot> {
     let transmission = &made.centrodes.transmission;
-    let cycle = made.assembly.driver_angle.last().copied().unwrap_or(0.0);
+    // A pair that swings begins anew where its segment begins.
+    let sector = made.options.sector.filter(|_| made.assembly.swings());
+    let from = sector.map_or(0.0, |s| s.from);
+    let reach =
+        sector.map_or_else(|| made.assembly.driver_angle.last().copied(), |s| Some(s.length()));
+    let reach = reach.unwrap_or(0.0);
     let sampled = |f: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
         (0..PLOT_SAMPLES)
-            .map(|i| cycle * i as f64 / (PLOT_SAMPLES - 1) as f64)
-            .map(|phi| (phi, f(phi)))
+            .map(|i| reach * i as f64 / (PLOT_SAMPLES - 1) as f64)
+            .map(|phi| (phi, f(from + phi)))
             .collect()
     };
-    let error =
-        made.contact.poses.iter().map(|p| (p.driver_angle, p.transmission_error.to_degrees()));
-    let teeth = made.contact.poses.iter().map(|p| (p.driver_angle, p.contacts.len() as f64));
+    let cycle = transmission.driver_period() * f64::from(cycle_periods(transmission));
+    let posed = |f: &dyn Fn(&ContactPose) -> f64| -> Vec<(f64, f64)> {
+        let mut points: Vec<(f64, f64)> = made
+            .contact
+            .poses
+            .iter()
+            .map(|p| ((p.driver_angle - from).rem_euclid(cycle), f(p)))
+            .filter(|p| p.0 <= reach)
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points
+    };
+    let error = posed(&|p| p.transmission_error.to_degrees());
+    let teeth = posed(&|p| p.contacts.len() as f64);
+    let turned = |phi: f64| (transmission.psi(phi) - transmission.psi(from)).to_degrees();
     vec![
         Plot::over_driver_angle("Transmission function psi", "follower angle, °")
-            .series("psi", sampled(&|phi| transmission.psi(phi).to_degrees())),
+            .series("psi", sampled(&turned)),
         Plot::over_driver_angle("Its derivative psi': driver torque over load", "psi'")
             .series("psi'", sampled(&|phi| transmission.derivative(phi))),
         Plot::over_driver_angle("Transmission error under load, with clearance", "follower lag, °")
-            .series("error", error.collect()),
-        Plot::over_driver_angle("Teeth in contact", "number").series("teeth", teeth.collect()),
+            .series("error", error),
+        Plot::over_driver_angle("Teeth in contact", "number").series("teeth", teeth),
         Plot::over_driver_angle("Lean of the pitch curves", "°")
             .series("lean", sampled(&|phi| made.centrodes.lean(phi).to_degrees())),
     ]

@@ -6,8 +6,7 @@ use anyhow::Context;
 use centrode::design::{SavedDesign, run_record};
 use centrode::export::Staging;
 use centrode::meshing::{
-    ContactInput, ContactOptions, DynamicsInput, Limits, MeshingReport, SampledMotion, Verdict,
-    analyse, prove,
+    ContactInput, ContactOptions, DynamicsInput, Limits, MeshingReport, Verdict, analyse, prove,
 };
 use centrode::report::{Note, NoteKind, ReportData, Section, Verdict as Badge, report_html};
 use serde_json::json;
@@ -21,7 +20,7 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
     let saved = SavedDesign::read(&args.design)?;
     let progress = Progress::new();
     progress.doing("working out the contact");
-    let motion = SampledMotion::new(&saved.driver_angle, &saved.follower_angle)?;
+    let motion = saved.motion().with_context(|| args.design.display().to_string())?;
     let [driver, follower] = &saved.gears;
     let contact = ContactInput {
         driver: &driver.outline,

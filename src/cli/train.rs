@@ -309,9 +309,12 @@ fn summary(made: &Made, files: &[PathBuf], args: &TrainArgs) -> anyhow::Result<(
     }
     let gears = &made.train.assembly.gears;
     let mut lines = vec![format!(
-        "{} gears, {} meshes; play at the last gear up to {:.2} degrees",
+        "{} gears, {}; play at the last gear up to {:.2} degrees",
         gears.len(),
-        made.train.assembly.meshes.len(),
+        match made.train.assembly.meshes.len() {
+            1 => "1 mesh".to_owned(),
+            count => format!("{count} meshes"),
+        },
         made.play.accumulated.last().copied().unwrap_or(0.0).to_degrees()
     )];
     for run in &made.runs {

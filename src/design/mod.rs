@@ -7,6 +7,7 @@ mod options;
 pub mod outfit;
 mod record;
 mod saved;
+mod sector;
 mod settings;
 mod source;
 mod train_file;
@@ -357,6 +358,9 @@ fn lean_held(max_lean: f64, faults: &[String]) -> String {
 }
 
 fn fitted_out(mut made: Design, options: &DesignOptions) -> Result<Design, DesignError> {
+    if let Some(segment) = options.sector {
+        sector::cut(&mut made, segment)?;
+    }
     let said = outfit::fit_out(&mut made.assembly, &options.outfit, &made.names, made.pair.module)?;
     made.warnings.extend(said);
     Ok(made)

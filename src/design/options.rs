@@ -2,6 +2,7 @@
 
 use super::outfit::{Outfit, OutfitError};
 use crate::fit::{FitError, FitOptions, LimitError, Ratio};
+use crate::law::Segment;
 use crate::meshing::ContactError;
 use crate::meshing::{DynamicsError, DynamicsOptions};
 use crate::pitch::TransmissionError;
@@ -92,6 +93,9 @@ pub struct DesignOptions {
     /// Judge the pair at the poses of a trial only, and do not relieve it: three times faster, for
     /// galleries.
     pub quick: bool,
+    /// Cut the gears to the teeth that mesh while the driver turns through this segment, and let the pair swing through
+    /// it. The pair is designed, analysed and run as whole gears first; the contact of the sectors is judged by itself.
+    pub sector: Option<Segment>,
     /// Load for the look at strength; the runs have their own.
     pub load: Load,
 }
@@ -122,6 +126,7 @@ impl DesignOptions {
             repair: true,
             runs: Vec::new(),
             quick: false,
+            sector: None,
             load: Load::default(),
         }
     }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::Design;
 use super::fittings_record::{FittingsRecord, FixtureRecord};
-use crate::assembly::PlacedGear;
+use crate::assembly::{Assembly, PlacedGear};
 use crate::geometry::Point;
 use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
 use crate::strength::Strength;
@@ -55,6 +55,9 @@ struct GearRecord {
 struct Motion {
     driver_angle: Vec<f64>,
     follower_angle: Vec<f64>,
+    /// Whether the pair goes back the same way instead of round and round.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    swings: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -210,6 +213,21 @@ struct Settings {
     symmetric: bool,
 }
 
+impl Motion {
+    /// One whole cycle, or one way of a pair that swings.
+    fn new(assembly: &Assembly) -> Self {
+        let swings = assembly.swings();
+        let samples = assembly.driver_angle.len();
+        let count = if swings { samples / 2 + 1 } else { samples };
+        let follower = assembly.gears[1].angle.iter();
+        Self {
+            driver_angle: assembly.driver_angle.iter().copied().take(count).collect(),
+            follower_angle: follower.map(|a| 0.0 - a).take(count).collect(),
+            swings,
+        }
+    }
+}
+
 impl Record {
     /// The record of a design.
     #[must_use]
@@ -231,10 +249,7 @@ impl Record {
             driver: gear_record(&gears[0], center(0)),
             follower: gear_record(&gears[1], center(1)),
             fixtures: design.assembly.fixtures.iter().map(FixtureRecord::new).collect(),
-            motion: Motion {
-                driver_angle: design.assembly.driver_angle.clone(),
-                follower_angle: gears[1].angle.iter().map(|a| 0.0 - a).collect(),
-            },
+            motion: Motion::new(&design.assembly),
             objective: design.objective().map(|objective| ObjectiveRecord {
                 E: objective.shape + objective.weight * objective.torque,
                 shape: objective.shape,

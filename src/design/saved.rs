@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::fittings_record::{FittingsRecord, FixtureRecord};
-use crate::assembly::{Assembly, Fixture, Gear, PlacedGear};
+use crate::assembly::{Assembly, Fixture, Gear, MotionError, PlacedGear, SampledMotion};
 use crate::geometry::{self, Point};
 use crate::policy;
 use crate::wording::quoted;
@@ -39,6 +39,8 @@ pub struct SavedDesign {
     pub driver_angle: Vec<f64>,
     /// How far the follower has turned, clockwise, at each of these samples.
     pub follower_angle: Vec<f64>,
+    /// Whether the pair is cut to sectors, the samples are the way there, and it goes back the same way.
+    pub swings: bool,
     /// Every option of the run as it was written.
     pub settings: Value,
     /// The verdict on the mesh and its numbers as they were written.
@@ -151,28 +153,44 @@ impl SavedDesign {
                 .collect::<Result<_, _>>()?,
             driver_angle: file.motion.driver_angle,
             follower_angle: file.motion.follower_angle,
+            swings: file.motion.swings,
             settings: file.settings,
             meshing: file.meshing,
         })
+    }
+
+    /// psi of a pair that turns round and round.
+    ///
+    /// # Errors
+    /// [`MotionError`], [`MotionError::Swings`] above all.
+    pub fn motion(&self) -> Result<SampledMotion, MotionError> {
+        if self.swings {
+            return Err(MotionError::Swings);
+        }
+        SampledMotion::new(&self.driver_angle, &self.follower_angle)
     }
 
     /// The gears on their axes with their motion, as [`super::design`] left them.
     #[must_use]
     pub fn assembly(&self) -> Assembly {
         let [driver, follower] = self.gears.clone();
-        let turned = self.follower_angle.iter().map(|a| 0.0 - a).collect();
+        let back = |way: &[f64]| -> Vec<f64> {
+            let back = way.iter().rev().skip(1).filter(|_| self.swings);
+            way.iter().chain(back).copied().collect()
+        };
+        let turned = back(&self.follower_angle).into_iter().map(|a| 0.0 - a).collect();
+        let rotation = back(&self.driver_angle);
+        let reach = self.driver_angle.last().copied().unwrap_or_default();
+        let ways = self.driver_angle.len();
+        let path = rotation.iter().enumerate();
+        let driver_angle = path.map(|(i, a)| if i < ways { *a } else { 2.0 * reach - a }).collect();
         let place = Point::new(self.center_distance, 0.0);
         Assembly {
             gears: vec![
-                PlacedGear {
-                    gear: driver,
-                    axis: Point::origin(),
-                    level: 0.0,
-                    angle: self.driver_angle.clone(),
-                },
+                PlacedGear { gear: driver, axis: Point::origin(), level: 0.0, angle: rotation },
                 PlacedGear { gear: follower, axis: place, level: 0.0, angle: turned },
             ],
-            driver_angle: self.driver_angle.clone(),
+            driver_angle,
             thickness: self.thickness,
             meshes: vec![[0, 1]],
             axles: Vec::new(),
@@ -231,6 +249,8 @@ struct FileGear {
 struct FileMotion {
     driver_angle: Vec<f64>,
     follower_angle: Vec<f64>,
+    #[serde(default)]
+    swings: bool,
 }
 
 fn plain_names() -> [String; 2] {

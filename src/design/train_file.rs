@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::saved::bounded_text;
 use super::{SavedDesign, SavedError};
-use crate::assembly::{Link, MotionError, PairModel, Role, SampledMotion, TrainGear, TrainPlan};
+use crate::assembly::{Link, MotionError, PairModel, Role, TrainGear, TrainPlan};
 use crate::policy;
 use crate::wording::quoted;
 
@@ -52,7 +52,7 @@ impl SavedDesign {
     pub fn pair_model(&self) -> Result<PairModel, MotionError> {
         Ok(PairModel {
             gears: self.gears.clone(),
-            motion: SampledMotion::new(&self.driver_angle, &self.follower_angle)?,
+            motion: self.motion()?,
             center_distance: self.center_distance,
             module: self.module,
         })

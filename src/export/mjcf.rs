@@ -117,6 +117,10 @@ impl Mjcf {
             let why = "it has gears on a shared axle, which a scene does not hold; leave mjcf out";
             return Err(io::Error::new(ErrorKind::InvalidData, why));
         }
+        if assembly.swings() {
+            let why = "its gears are sectors that swing, which its motor cannot do; leave mjcf out";
+            return Err(io::Error::new(ErrorKind::InvalidData, why));
+        }
         Ok(text::text(&self.measure(assembly)?))
     }
 

@@ -19,7 +19,7 @@ pub struct Ratio {
 /// Why a text or number is no transmission ratio.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{given:?} is no transmission ratio; give a whole number such as 2, or the reciprocal of one such as 1/3, up to {most}"
+    "{given:?} is no transmission ratio here; give a whole number such as 2, or the reciprocal of one such as 1/3, up to {most} (`motion` and `mate` take 3:2 and the like too)"
 )]
 pub struct RatioError {
     /// What was given.

@@ -3,6 +3,9 @@
 use super::Quantity;
 use crate::pitch::{PolarError, TransmissionError};
 
+/// A bound below this is rounding; zero is said instead.
+const LEAST_SAID: f64 = 1e-9;
+
 /// Why a formula, a table or a function is no motion. Angles in radians.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LawError {
@@ -63,7 +66,7 @@ pub enum LawError {
         at: f64,
     },
     /// The follower would stop or turn back, or a radius vanishes.
-    #[error("{} falls to {value:.4} at {:.1} degrees of the driver, where {}; keep it above {least:.2e}", named(*.quantity), .at.to_degrees(), stops(*.quantity))]
+    #[error("{} falls to {value:.4} at {:.1} degrees of the driver, where {}; keep it above {}", named(*.quantity), .at.to_degrees(), stops(*.quantity), bound(*.least))]
     NotPositive {
         /// What was given.
         quantity: Quantity,
@@ -215,6 +218,11 @@ fn named(quantity: Quantity) -> &'static str {
         Quantity::Angle => "the derivative of psi",
         Quantity::DriverRadius => "the radius",
     }
+}
+
+/// A bound worth reading: a law whose mean is next to nothing has one that is only rounding.
+fn bound(least: f64) -> String {
+    if least < LEAST_SAID { "0".to_owned() } else { format!("{least:.2e}") }
 }
 
 fn stops(quantity: Quantity) -> &'static str {

@@ -234,6 +234,8 @@ fn kind(bytes: &[u8], source: &str) -> Option<Kind> {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
     let extension = Path::new(source).extension().unwrap_or_default().to_string_lossy();
     match (text.first(), extension.to_lowercase().as_str()) {
+        // What `check` reads as finished gears is no drawing, though it may begin with a number.
+        (_, "dxf" | "stl" | "obj" | "3mf" | "step" | "stp") => None,
         (Some(b'<'), _) | (_, "svg" | "svgz") => Some(Kind::Svg),
         (Some(b'[' | b'{'), _) | (_, "json") => Some(Kind::Json),
         (_, "png" | "jpg" | "jpeg" | "tif" | "tiff" | "bmp") => Some(Kind::Image),

@@ -115,11 +115,13 @@ impl Outline {
         if size < policy::OUTLINE_RANGE.0 || signed.abs() < 1e-9 * size * size {
             return Err(OutlineError::NoArea);
         }
-        if let Some(p) = geometry::first_self_crossing(&points) {
-            return Err(OutlineError::SelfCrossing { x: p.x, y: p.y });
-        }
+        // First, so that what is accepted is accepted again: where a corner touches a side by rounding, the answer
+        // depends on the order of the points.
         if signed < 0.0 {
             points.reverse();
+        }
+        if let Some(p) = geometry::first_self_crossing(&points) {
+            return Err(OutlineError::SelfCrossing { x: p.x, y: p.y });
         }
         Ok(Self { points })
     }

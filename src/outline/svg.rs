@@ -51,6 +51,17 @@ pub enum SvgError {
         /// Deepest nesting that is read.
         limit: u32,
     },
+    /// A number in path data that no drawing needs. Elliptical arcs are cut into more pieces the larger they are, and the
+    /// reader's work grows with the square of these.
+    #[error(
+        "its path data holds the number {value:e}; keep the drawing within {limit:e} of the origin"
+    )]
+    Far {
+        /// The number.
+        value: f64,
+        /// The largest that is read, [`crate::policy::OUTLINE_RANGE`].
+        limit: f64,
+    },
     /// A `use` that leads back to itself.
     #[error("a `use` element refers back to itself through `{id}`; remove it")]
     Circular {

@@ -80,6 +80,38 @@ fn most_attributes(text: &str) -> usize {
     most
 }
 
+/// The largest magnitude among the numbers of path data. Flags of arcs that are written without a blank count with the
+/// number behind them.
+fn largest_number(data: &str) -> f64 {
+    let bytes = data.as_bytes();
+    let digits = |from: usize| {
+        from + bytes[from..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count()
+    };
+    let mut largest = 0.0_f64;
+    let mut at = 0;
+    while at < bytes.len() {
+        let mut end = digits(at);
+        if end == at {
+            at += 1;
+            continue;
+        }
+        if matches!(bytes.get(end), Some(b'e' | b'E')) {
+            let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+            let exponent = digits(end + 1 + sign);
+            if exponent > end + 1 + sign {
+                end = exponent;
+            }
+        }
+        // What is no number, such as `1.2.3`, is two of them.
+        let value = data[at..end]
+            .parse()
+            .or_else(|_| data[at..end].split('.').next().unwrap_or("0").parse());
+        largest = largest.max(value.unwrap_or(0.0_f64));
+        at = end;
+    }
+    largest
+}
+
 fn style_rules(document: &Document) -> u64 {
     let sheets = document.descendants().filter(|n| n.tag_name().name() == "style");
     let rules: usize = sheets.filter_map(|n| n.text()).map(|t| t.matches(['{', ',']).count()).sum();
@@ -120,6 +152,11 @@ impl<'a, 'input> Counter<'a, 'input> {
             None => {}
         }
         self.known.insert(node.id(), State::Open);
+        let limit = policy::OUTLINE_RANGE.1;
+        let value = node.attribute("d").map_or(0.0, largest_number);
+        if value > limit {
+            return Err(SvgError::Far { value, limit });
+        }
         let data = [node.attribute("d"), node.attribute("points")];
         let path_bytes: usize = data.into_iter().flatten().map(str::len).sum();
         let mut total = Expansion { elements: 1, path_bytes: path_bytes as u64, depth: 0 };

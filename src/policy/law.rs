@@ -28,6 +28,19 @@ pub const LAW_SEGMENT: (f64, f64) = (0.01, 0.95);
 pub const LAW_CLOSING_MOST: f64 = 64.0;
 /// Halvings of the bracket of that height; the last is below the rounding of the sum.
 pub const LAW_CLOSING_HALVINGS: usize = 60;
+/// Pitches of teeth kept on either side of those that pass the pitch point within a segment: contact reaches about one
+/// pitch beyond it.
+pub const SECTOR_MARGIN: f64 = 1.5;
+/// Steps along the pitch curve from the segment to its cut, and places at which a tangent of the hub is looked at.
+pub const SECTOR_STEPS: usize = 64;
+/// Share of a turn from which on a gear is left whole.
+pub const SECTOR_MOST_TURN: f64 = 0.9;
+/// Radius of the hub of a sector over that of its bore.
+pub const SECTOR_HUB_BORES: f64 = 2.0;
+/// Least wall between its bore and the edge of its hub, mm: five printed lines.
+pub const SECTOR_HUB_WALL: f64 = 2.0;
+/// Its largest radius over that of the largest circle within the whole gear.
+pub const SECTOR_HUB_MOST: f64 = 0.98;
 /// Rounds in which a fixed orientation is approached; three suffice for laws that bend little.
 pub const ORIENTATION_ROUNDS: usize = 12;
 /// Angle to which a fixed orientation is kept, radians: far below what can be seen.

@@ -7,6 +7,9 @@ pub const TRAIN_MOST_CYCLES: usize = 64;
 /// Share of a turn by which a gear may miss its first pose and still have come back to it: rounding of many
 /// compositions of psi, each exact to about 1e-12.
 pub const TRAIN_REPEAT: f64 = 1e-7;
+/// Most teeth that pass from one motion sample to the next: files and drawings tell the motion by its samples. The driver
+/// of a common pair is 30 times slower, and so much torque would it take.
+pub const TRAIN_TEETH_PER_SAMPLE: f64 = 1.0;
 /// Poses at which gears that do not mesh are tested for collision: every second degree and more finely than any tooth
 /// passes by another.
 pub const COLLISION_POSES: usize = 240;

@@ -143,7 +143,10 @@
       svg.setAttribute("viewBox", box.map((v) => v.toFixed(4)).join(" "));
     }
     if (contacts.frames.length) showContacts();
-    for (const plot of plots) showPlot(plot, angle / DEGREE);
+    // A driver that swings goes back along its plots.
+    const driver = turning[0].angle;
+    const driven = Math.abs(between(driver[place.low], driver[place.high], place.part)) / DEGREE;
+    for (const plot of plots) showPlot(plot, driven);
     slider.value = String(angle / DEGREE);
     slider.setAttribute("aria-valuetext", `${(angle / DEGREE).toFixed(1)} degrees`);
   };

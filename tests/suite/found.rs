@@ -4,7 +4,7 @@
 use centrode::check::{CheckOptions, check};
 use centrode::design::SavedDesign;
 use centrode::law::{Quantity, Table};
-use centrode::outline::{GearRole, LoadOptions, shape_from_bytes, toothed_from_bytes};
+use centrode::outline::{GearRole, LoadOptions, Outline, shape_from_bytes, toothed_from_bytes};
 use centrode::scene::{Key, Kind, read, write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -40,6 +40,25 @@ fn control_characters_of_a_drawing_do_not_reach_the_terminal() {
     refused(&[("table-1.csv", "line 10 of the table")], |_, bytes| {
         Table::parse(bytes, Quantity::Angle).map(drop).map_err(|e| e.to_string())
     });
+}
+
+#[test]
+fn an_arc_wider_than_the_world_is_refused() {
+    // Its pieces were counted by the million, and the reader moved all of them for each.
+    refused(&[("svg-1.svg", "1.1e39")], |name, bytes| {
+        let made = shape_from_bytes(bytes, name, &LoadOptions::default());
+        made.map(drop).map_err(|e| e.to_string())
+    });
+}
+
+#[test]
+fn an_outline_that_is_accepted_is_accepted_again() {
+    let (path, bytes) = found("mesh-2.obj");
+    let made = toothed_from_bytes(&bytes, &path.to_string_lossy(), None, GearRole::Driver);
+    if let Ok(gear) = made {
+        let points = gear.outline.points().to_vec();
+        assert_eq!(Outline::new(points).as_ref(), Ok(&gear.outline));
+    }
 }
 
 #[test]

@@ -101,7 +101,7 @@ impl Taken {
 }
 
 /// From the axis to the nearest point of the outline, mm; zero for an axis outside.
-fn clear_radius(outline: &[Point]) -> f64 {
+pub(super) fn clear_radius(outline: &[Point]) -> f64 {
     if !geometry::contains(outline, Point::origin()) {
         return 0.0;
     }

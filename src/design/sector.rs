@@ -1,0 +1,230 @@
+//! Gears for a part of a turn: teeth stay where they mesh within it, the rest is cut away down to a hub, and the
+//! pair swings there and back.
+
+use super::outfit::clear_radius;
+use super::{Design, DesignError};
+use crate::assembly::Gear;
+use crate::geometry::{self, Point};
+use crate::law::Segment;
+use crate::meshing::{ContactInput, ContactOptions, poses_at};
+use crate::pitch::Centrodes;
+use crate::policy;
+use std::f64::consts::{PI, TAU};
+
+/// Cuts both gears of a finished pair to the teeth that mesh while the driver turns through `segment`, and lets them
+/// swing through it: motion and gears begin anew where it begins. A gear that needs nearly all of its turn stays
+/// whole. The contact of what is left is judged over the segment; what fails is added to the faults.
+///
+/// # Errors
+/// See [`crate::meshing::ContactError`].
+pub(super) fn cut(made: &mut Design, segment: Segment) -> Result<(), DesignError> {
+    let pitch = PI * made.pair.module;
+    let kept = Kept::of(&made.centrodes, segment, pitch);
+    let centrodes = made.centrodes.clone();
+    let transmission = &centrodes.transmission;
+    // Room for what the gear has to carry; see `outfit::hub`.
+    let outfit = &made.options.outfit;
+    let asked = |bore: f64| {
+        outfit.hub.map_or(0.0, |hub| {
+            let wall = policy::HUB_WALL.max(policy::SET_SCREW_THREAD);
+            let raised = hub.diameter.map_or(bore + outfit.chamfer + wall, |d| 0.5 * d);
+            raised + policy::BORE_WALL
+        })
+    };
+    for (place, placed) in
+        [Place::Driver, Place::Follower].into_iter().zip(&mut made.assembly.gears)
+    {
+        let gear = &mut placed.gear;
+        let Some(cut) = sector(place, gear, &centrodes, &kept, &asked) else {
+            made.steps.push(format!(
+                "the {} needs nearly all of its turn for the segment and stays whole",
+                gear.name
+            ));
+            continue;
+        };
+        let teeth = (centrodes.arc_length(cut.between[0], cut.between[1]) / pitch).round();
+        made.steps.push(format!(
+            "the {} was cut to {teeth} of its {} teeth, which mesh from {:.1} to {:.1} degrees of driver turn",
+            gear.name,
+            gear.teeth,
+            segment.from.to_degrees(),
+            segment.to.to_degrees()
+        ));
+        gear.outline = cut.outline;
+    }
+    judge(made, segment)?;
+    // From here on both gears lie as they do where the segment begins.
+    let start = [segment.from, -transmission.psi(segment.from)];
+    for (placed, angle) in made.assembly.gears.iter_mut().zip(start) {
+        let gear = &mut placed.gear;
+        let rings = [&mut gear.outline, &mut gear.pitch_curve, &mut gear.input];
+        for ring in rings.into_iter().chain(&mut gear.bore) {
+            ring.iter_mut().for_each(|p| *p = geometry::rotate(*p, angle));
+        }
+    }
+    let way = policy::MOTION_SAMPLES / 2;
+    let there = |i: usize| segment.length() * i.min(2 * way - i) as f64 / way as f64;
+    let driver: Vec<f64> = (0..=2 * way).map(there).collect();
+    let assembly = &mut made.assembly;
+    assembly.driver_angle =
+        (0..=2 * way).map(|i| segment.length() * i as f64 / way as f64).collect();
+    for placed in &mut assembly.gears {
+        placed.angle = driver.clone();
+    }
+    if let Some(follower) = assembly.gears.get_mut(1) {
+        let turned = |x: &f64| transmission.psi(segment.from) - transmission.psi(segment.from + x);
+        follower.angle = driver.iter().map(turned).collect();
+    }
+    Ok(())
+}
+
+/// Contact of the gears as they are now, over the segment.
+fn judge(made: &mut Design, segment: Segment) -> Result<(), DesignError> {
+    let [driver, follower] = &made.assembly.gears[..] else { return Ok(()) };
+    let transmission = &made.centrodes.transmission;
+    let input = ContactInput {
+        driver: &driver.gear.outline,
+        follower: &follower.gear.outline,
+        center_distance: made.centrodes.center_distance,
+        module: made.pair.module,
+        motion: &|phi| transmission.psi(phi),
+        motion_derivative: &|phi| transmission.derivative(phi),
+        driver_cycle: segment.length(),
+    };
+    let count = policy::CONTACT_POSES;
+    let angles: Vec<f64> =
+        (0..=count).map(|i| segment.from + segment.length() * i as f64 / count as f64).collect();
+    let poses = poses_at(&input, &ContactOptions::default(), &angles)?;
+    let known = made.contact.summary.max_interference.as_ref().map_or(0.0, |w| w.value);
+    let allowed = known + policy::WORST_INTERFERENCE * made.pair.module;
+    let bad = poses.iter().find(|p| p.lost || p.lost_reversed || p.interference > allowed);
+    match bad {
+        Some(pose) => made.faults.push(format!(
+            "cut to its segment the pair loses contact at {:.1} degrees of driver turn; leave out --sector or give more teeth",
+            pose.driver_angle.to_degrees()
+        )),
+        None => made.steps.push(format!(
+            "the cut gears keep contact at all {} poses of the segment; the other figures are those of the whole gears",
+            poses.len()
+        )),
+    }
+    Ok(())
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    Driver,
+    Follower,
+}
+
+impl Place {
+    /// Driver angle at which a point of the gear, in its own frame, faces the mate, the nearest to `near`; and how far
+    /// the point lies outside the pitch curve, mm.
+    fn faces(self, p: Point, centrodes: &Centrodes, near: f64) -> (f64, f64) {
+        let transmission = &centrodes.transmission;
+        let direction = p.y.atan2(p.x);
+        let closest = |angle: f64, to: f64| angle - TAU * ((angle - to) / TAU).round();
+        let (phi, radius) = match self {
+            Self::Driver => {
+                let phi = closest(-direction, near);
+                (phi, centrodes.driver_radius(phi))
+            }
+            Self::Follower => {
+                let phi = transmission.inverse(closest(direction - PI, transmission.psi(near)));
+                (phi, centrodes.follower_radius(phi))
+            }
+        };
+        (phi, p.coords.norm() - radius)
+    }
+}
+
+/// Driver angles at which the teeth pass the pitch point that are kept, and up to which the cut may lie.
+struct Kept {
+    inner: [f64; 2],
+    outer: [f64; 2],
+}
+
+impl Kept {
+    fn of(centrodes: &Centrodes, segment: Segment, pitch: f64) -> Self {
+        let along = |from: f64, arc: f64| {
+            let piece = arc / policy::SECTOR_STEPS as f64;
+            (0..policy::SECTOR_STEPS).fold(from, |phi, _| phi + piece / centrodes.arc_speed(phi))
+        };
+        let margin = policy::SECTOR_MARGIN * pitch;
+        let inner = [along(segment.from, -margin), along(segment.to, margin)];
+        Self { inner, outer: [along(inner[0], -pitch), along(inner[1], pitch)] }
+    }
+
+    fn middle(&self) -> f64 {
+        0.5 * (self.inner[0] + self.inner[1])
+    }
+}
+
+struct Sector {
+    outline: Vec<Point>,
+    /// Driver angles at which its ends pass the pitch point.
+    between: [f64; 2],
+}
+
+/// The kept teeth, cut off at the deepest points of the tooth spaces beyond them, on a hub; none when the gear needs
+/// nearly its whole turn. `asked` is the least radius of the hub for what a bore of given radius asks for, mm.
+fn sector(
+    place: Place,
+    gear: &Gear,
+    centrodes: &Centrodes,
+    kept: &Kept,
+    asked: &dyn Fn(f64) -> f64,
+) -> Option<Sector> {
+    let transmission = &centrodes.transmission;
+    let turn = match place {
+        Place::Driver => kept.outer[1] - kept.outer[0],
+        Place::Follower => transmission.psi(kept.outer[1]) - transmission.psi(kept.outer[0]),
+    };
+    if turn > policy::SECTOR_MOST_TURN * TAU {
+        return None;
+    }
+    let outline = &gear.outline;
+    let at: Vec<(f64, f64)> =
+        outline.iter().map(|p| place.faces(*p, centrodes, kept.middle())).collect();
+    let deepest = |from: f64, to: f64| {
+        let between = (0..at.len()).filter(|&i| (from..=to).contains(&at[i].0));
+        between.min_by(|&a, &b| at[a].1.total_cmp(&at[b].1))
+    };
+    let low = deepest(kept.outer[0], kept.inner[0])?;
+    let high = deepest(kept.inner[1], kept.outer[1])?;
+    // Counter-clockwise the driver's own angles fall with phi, the follower's rise.
+    let (first, last) = match place {
+        Place::Driver => (high, low),
+        Place::Follower => (low, high),
+    };
+    let count = (last + outline.len() - first) % outline.len();
+    let mut ring: Vec<Point> = (0..=count).map(|k| outline[(first + k) % outline.len()]).collect();
+    let bore = gear.bore.iter().flatten().map(|p| p.coords.norm()).fold(0.0, f64::max);
+    let wanted =
+        (policy::SECTOR_HUB_BORES * bore).max(bore + policy::SECTOR_HUB_WALL).max(asked(bore));
+    let hub = wanted.min(policy::SECTOR_HUB_MOST * clear_radius(outline));
+    ring.extend(back(&ring, outline, hub)?);
+    let sound =
+        geometry::first_self_crossing(&ring).is_none() && geometry::signed_area(&ring) > 0.0;
+    sound.then_some(Sector { outline: ring, between: [at[low].0, at[high].0] })
+}
+
+/// The way from the last kept point round the hub to the first: along tangents of the hub where these run in the gear and
+/// leave room for each other, straight towards the axis elsewhere.
+fn back(ring: &[Point], outline: &[Point], hub: f64) -> Option<Vec<Point>> {
+    let (first, last) = (*ring.first()?, *ring.last()?);
+    let angle = |p: Point| p.y.atan2(p.x);
+    let open = (angle(first) - angle(last)).rem_euclid(TAU);
+    let swing = |p: Point| (hub / p.coords.norm()).min(1.0).acos();
+    let on_hub = |a: f64| geometry::rotate(Point::new(hub, 0.0), a);
+    let inside = |from: Point, to: Point| {
+        let n = policy::SECTOR_STEPS;
+        (1..n).all(|k| geometry::contains(outline, from + (to - from) * (k as f64 / n as f64)))
+    };
+    let (a, b) = (angle(last) + swing(last), angle(last) + open - swing(first));
+    let tangents = a < b && inside(last, on_hub(a)) && inside(first, on_hub(b));
+    let (from, to) = if tangents { (a, b) } else { (angle(last), angle(last) + open) };
+    let step = 2.0 * (1.0 - policy::BORE_CHORD_TOLERANCE / hub).clamp(-1.0, 1.0).acos();
+    let pieces = ((to - from) / step).ceil().max(1.0) as usize;
+    Some((0..=pieces).map(|k| on_hub(from + (to - from) * k as f64 / pieces as f64)).collect())
+}
