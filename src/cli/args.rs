@@ -411,7 +411,7 @@ pub(crate) struct SimulateArgs {
     #[arg(value_name = "DESIGN")]
     pub(crate) design: PathBuf,
     /// Whole cycles of both gears
-    #[arg(long, default_value_t = policy::SIMULATED_CYCLES, value_name = "CYCLES", value_parser = units::positive, allow_hyphen_values = true)]
+    #[arg(long, default_value_t = policy::SIMULATED_CYCLES, value_name = "CYCLES", value_parser = units::whole_cycles, allow_hyphen_values = true)]
     pub(crate) cycles: f64,
     /// Print the verdict and the figures as JSON on standard output
     #[arg(long)]

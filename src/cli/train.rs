@@ -43,7 +43,7 @@ pub(crate) struct TrainArgs {
     #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     bend: Option<f64>,
     /// Whole cycles that are simulated
-    #[arg(long, default_value_t = policy::SIMULATED_CYCLES, value_name = "CYCLES", value_parser = units::positive, help_heading = "Simulation")]
+    #[arg(long, default_value_t = policy::SIMULATED_CYCLES, value_name = "CYCLES", value_parser = units::cycles, help_heading = "Simulation")]
     cycles: f64,
     /// Do not run the train as rigid bodies
     #[arg(long, help_heading = "Simulation")]

@@ -63,12 +63,32 @@ pub(crate) fn degrees(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number above zero.
+/// A number above zero, of a size that things have.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    let (least, most) = policy::QUANTITY_RANGE;
     match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
-        _ => Err(format!("'{text}' is not a number above zero")),
+        Ok(value) if (least..=most).contains(&value) => Ok(value),
+        _ => Err(format!("'{text}' is not a number above zero; give {least:e} to {most:e}")),
     }
+}
+
+/// Cycles of a run that judges all teeth.
+pub(crate) fn whole_cycles(text: &str) -> Result<f64, String> {
+    cycles(text).ok().filter(|count| *count >= 1.0).ok_or_else(|| {
+        format!(
+            "'{text}' is no number of whole cycles; give 1 to {}, less does not turn all teeth through the mesh",
+            policy::MOST_CYCLES
+        )
+    })
+}
+
+/// Cycles of a run, also a part of one.
+pub(crate) fn cycles(text: &str) -> Result<f64, String> {
+    let most = policy::MOST_CYCLES;
+    positive(text)
+        .ok()
+        .filter(|count| *count <= most)
+        .ok_or_else(|| format!("'{text}' is no number of cycles; give up to {most}, such as 2"))
 }
 
 /// A ratio above zero: a number or a fraction such as 1/2.

@@ -73,6 +73,17 @@ impl Attempt {
         };
         let centrodes = scaled(transmission, options, Some(settings.teeth));
         let module = centrodes.perimeter().0 / (std::f64::consts::PI * f64::from(settings.teeth));
+        if let Some(root) = options.root_clearance {
+            let most = policy::DEEPEST_ROOT_CLEARANCE * module;
+            if root > most {
+                let remedy = format!("give up to {most:.3} mm, the module of these teeth");
+                return Err(DesignError::Option {
+                    name: "the root clearance",
+                    value: root,
+                    remedy,
+                });
+            }
+        }
         let teeth_options = TeethOptions {
             driver_teeth: settings.teeth,
             pressure_angle: options.pressure_angle,

@@ -401,6 +401,11 @@ fn check(options: &DesignOptions) -> Result<(), DesignError> {
             return refuse(name, value, "give a length of 0 or more".to_owned());
         }
     }
+    let (least, most) = policy::CHORD_TOLERANCE_RANGE;
+    if !(least..=most).contains(&options.chord_tolerance) {
+        let remedy = format!("give {least:e} to {most} modules");
+        return refuse("the chord tolerance", options.chord_tolerance, remedy);
+    }
     let degrees = options.pressure_angle.to_degrees();
     if !(10.0..=35.0).contains(&degrees) {
         return refuse("the pressure angle", degrees, "give 10 to 35 degrees".to_owned());

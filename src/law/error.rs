@@ -3,6 +3,8 @@
 use super::Quantity;
 use crate::pitch::{PolarError, TransmissionError};
 
+/// A factor farther from one than this closes nothing that was meant.
+const FACTOR_SAID: f64 = 1e3;
 /// A bound below this is rounding; zero is said instead.
 const LEAST_SAID: f64 = 1e-9;
 
@@ -102,6 +104,24 @@ pub enum LawError {
         wanted: f64,
         /// Turns of driver and follower, in lowest terms.
         turns: (u32, u32),
+    },
+    /// Faster than the samples it is known by.
+    #[error("{} changes too fast to be followed, first at {:.1} degrees of the driver; use slower waves (phi is in radians), or give a table", named(*.quantity), .at.to_degrees())]
+    TooFast {
+        /// What was given.
+        quantity: Quantity,
+        /// Where.
+        at: f64,
+    },
+    /// More waves than there are teeth to follow them.
+    #[error("{} has {count} waves in a turn of the driver, more than {most}; no teeth follow so many, use slower waves (phi is in radians)", named(*.quantity))]
+    TooManyWaves {
+        /// What was given.
+        quantity: Quantity,
+        /// Waves in a turn of the driver.
+        count: usize,
+        /// The most that are taken.
+        most: usize,
     },
     /// A line of a table is not two numbers.
     #[error(
@@ -244,6 +264,10 @@ fn repeat(folds: u32, turns: (u32, u32)) -> String {
 }
 
 fn close(mean: f64, wanted: f64, turns: (u32, u32)) -> String {
+    // Farther off than any ratio: something else is wrong.
+    if !(1.0 / FACTOR_SAID..=FACTOR_SAID).contains(&(wanted / mean)) {
+        return "check its sign and its unit".to_owned();
+    }
     format!(
         "multiply it by {:.6} (or give --normalise), or ask for another ratio than {}:{}",
         wanted / mean,

@@ -85,6 +85,10 @@ fn tidied(text: &str) -> Result<String, LawError> {
                 text: text.to_owned(),
                 reason: format!("{number:?} is no number"),
             })?;
+            if !value.is_finite() {
+                let reason = "one of its numbers is too large".to_owned();
+                return Err(LawError::Unreadable { text: text.to_owned(), reason });
+            }
             // The parser does not know exponents.
             out.push_str(format!("{value:.400}").trim_end_matches('0').trim_end_matches('.'));
             (i, prefix) = (end, false);

@@ -93,22 +93,81 @@ pub fn from_function(
     let largest = samples.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     // Where it should have repeated: within the turn of the driver, and after it.
     let fold = options.ratio.driver_fold() as usize;
+    let mut strays = Vec::new();
     for (i, &now) in samples.iter().enumerate() {
         let here = i as f64 * step;
         let again = value(here + period * (1 + i % fold) as f64);
         // Written so that a value that is not a number is refused too.
         let repeats = (again - now).abs() <= policy::LAW_REPEATS_WITHIN * largest;
         if !repeats {
-            return Err(LawError::NotPeriodic {
-                quantity,
-                folds: options.ratio.driver_fold(),
-                turns: (options.ratio.follower_fold(), options.ratio.driver_fold()),
-                at: here,
-                values: (now, again),
-            });
+            strays.push((here, (now, again)));
         }
     }
+    // At a step rounding alone decides on which side of it a sample falls.
+    if strays.len() > policy::LAW_STEPS
+        && let Some(&(at, values)) = strays.first()
+    {
+        return Err(LawError::NotPeriodic {
+            quantity,
+            folds: options.ratio.driver_fold(),
+            turns: (options.ratio.follower_fold(), options.ratio.driver_fold()),
+            at,
+            values,
+        });
+    }
+    if let Some(at) = misses(&samples, value, step) {
+        return Err(LawError::TooFast { quantity, at });
+    }
     closed(samples, options)
+}
+
+/// Where samples first fail to tell what a function does between them, if they do so in more than a few places: waves
+/// shorter than the samples are apart look like other waves.
+fn misses(samples: &[f64], value: &dyn Fn(f64) -> f64, step: f64) -> Option<f64> {
+    let n = samples.len();
+    let (low, high) =
+        samples.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+    let allowed = (policy::LAW_MISS * (high - low))
+        .max(policy::LAW_REPEATS_WITHIN * low.abs().max(high.abs()));
+    // On no grid of the samples.
+    let t = 1.0 - policy::GOLDEN_FRACTION;
+    let weights = [
+        -t * (t - 1.0) * (t - 2.0) / 6.0,
+        (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+        -(t + 1.0) * t * (t - 2.0) / 2.0,
+        (t + 1.0) * t * (t - 1.0) / 6.0,
+    ];
+    let missed = |i: &usize| {
+        let told: f64 = (0..4).map(|k| weights[k] * samples[(i + n + k - 1) % n]).sum();
+        let off = (value((*i as f64 + t) * step) - told).abs();
+        // Written so that a value that is not a number counts too.
+        !(off <= allowed)
+    };
+    let places: Vec<usize> = (0..n).filter(missed).collect();
+    let most = policy::LAW_MISSES * n as f64;
+    places.first().filter(|_| places.len() as f64 > most).map(|&i| i as f64 * step)
+}
+
+/// How often samples of one period pass through the middle of their range upwards, trembling aside.
+fn waves(samples: &[f64], mean: f64) -> usize {
+    let (low, high) =
+        samples.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+    if high - low <= policy::LAW_FLAT * mean {
+        return 0;
+    }
+    let band = policy::LAW_TREMBLE * (high - low);
+    let middle = 0.5 * (low + high);
+    let mut below = false;
+    let mut count = 0;
+    for v in samples.iter().chain(samples.first()) {
+        if *v < middle - band {
+            below = true;
+        } else if *v > middle + band && below {
+            below = false;
+            count += 1;
+        }
+    }
+    count
 }
 
 /// Samples of psi' or of the radius over one period, checked and closed.
@@ -134,6 +193,10 @@ fn closed(samples: Vec<f64>, options: &LawOptions) -> Result<Transmission, LawEr
         });
     }
     let folds = (options.ratio.driver_fold(), options.ratio.follower_fold());
+    let count = waves(&samples, mean) * folds.0 as usize;
+    if count > policy::LAW_WAVES {
+        return Err(LawError::TooManyWaves { quantity, count, most: policy::LAW_WAVES });
+    }
     let samples = if quantity == Quantity::DriverRadius {
         // All directions of the driver's turn, for the centre distance.
         let whole: Vec<f64> = (0..n * folds.0 as usize).map(|i| samples[i % n]).collect();
@@ -203,6 +266,27 @@ mod tests {
         let once = |phi: f64| (1.0 + 0.2 * phi.cos()) * 2.0 / 3.0;
         let error = from_function(once, &options((3, 2), Quantity::Speed)).unwrap_err();
         assert!(matches!(error, LawError::NotPeriodic { folds: 2, .. }), "{error}");
+    }
+
+    #[test]
+    fn waves_that_samples_cannot_tell_are_refused_and_steps_are_not() {
+        let plain = options((1, 1), Quantity::Speed);
+        let wave = |n: f64| from_function(move |phi| 1.0 + 0.3 * (n * phi).cos(), &plain);
+        // The last two look like one wave and like a constant.
+        for n in [500.0, 1024.0, 2049.0, 4097.0, 8192.0] {
+            let error = wave(n).unwrap_err();
+            assert!(matches!(error, LawError::TooFast { .. }), "{n}: {error}");
+        }
+        let many = wave(200.0).unwrap_err();
+        assert!(matches!(many, LawError::TooManyWaves { count: 200, .. }), "{many}");
+        assert!((wave(100.0).unwrap().derivative(0.0) - 1.3).abs() < 1e-3);
+        // Two samples more lie on the upper side of its steps than on the lower.
+        let scaled = LawOptions { normalise: true, ..plain };
+        let step = from_function(|phi| 1.0 + 0.3 * phi.sin().signum(), &scaled).unwrap();
+        assert!((step.derivative(1.0) - 1.3).abs() < 1e-2);
+        // As small as numbers get.
+        let tiny = from_function(|_| 1e-308, &scaled).unwrap();
+        assert!((tiny.psi(TAU) - TAU).abs() < 1e-9);
     }
 
     #[test]

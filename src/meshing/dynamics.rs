@@ -96,6 +96,16 @@ pub enum DynamicsError {
         /// What is wrong with it.
         source: PartitionError,
     },
+    /// A motor that cannot turn the gears however well they mesh.
+    #[error(
+        "a motor of {limit:.1} N mm is too weak: the load alone asks for {least:.1} N mm where the follower is fastest; give it more, or a smaller load"
+    )]
+    WeakMotor {
+        /// Torque limit of the motor, N mm.
+        limit: f64,
+        /// The load times the greatest psi', N mm.
+        least: f64,
+    },
     /// An option is out of its range.
     #[error("the {name} is {value}; give {remedy}")]
     Option {
@@ -249,27 +259,35 @@ pub fn simulate(
 }
 
 fn check(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<(), DynamicsError> {
-    let positive = "a number above zero";
-    let most = f64::MAX;
+    let positive = "a number from 1e-9 to 1e9";
+    let (least, most) = policy::QUANTITY_RANGE;
     let limit = match options.drive {
         Drive::Motor(Some(limit)) => limit,
         _ => 1.0,
     };
     let ranges = [
-        ("load", options.load, f64::MIN_POSITIVE, most, positive),
-        ("speed", options.rpm, f64::MIN_POSITIVE, most, positive),
-        ("density", options.density, f64::MIN_POSITIVE, most, positive),
-        ("thickness", options.thickness, f64::MIN_POSITIVE, most, positive),
-        ("number of cycles", options.cycles, f64::MIN_POSITIVE, most, positive),
-        ("torque limit of the motor", limit, f64::MIN_POSITIVE, most, positive),
+        ("load", options.load, least, most, positive),
+        ("speed", options.rpm, least, most, positive),
+        ("density", options.density, least, most, positive),
+        ("thickness", options.thickness, least, most, positive),
+        ("number of cycles", options.cycles, least, most, positive),
+        ("torque limit of the motor", limit, least, most, positive),
         ("friction", options.friction, 0.0, 2.0, "0 to 2"),
         ("number of driver teeth", f64::from(input.driver_teeth), 1.0, most, "at least 1"),
         ("number of steps a tooth", f64::from(options.steps_per_tooth), 1.0, 1e5, "1 to 100000"),
     ];
-    match ranges.into_iter().find(|(_, value, low, high, _)| !(low..=high).contains(&value)) {
-        Some((name, value, _, _, remedy)) => Err(DynamicsError::Option { name, value, remedy }),
-        None => Ok(()),
+    if let Some((name, value, _, _, remedy)) =
+        ranges.into_iter().find(|(_, value, low, high, _)| !(low..=high).contains(&value))
+    {
+        return Err(DynamicsError::Option { name, value, remedy });
     }
+    if let Drive::Motor(Some(limit)) = options.drive {
+        let least = options.load * steepest(&input.contact);
+        if limit <= least {
+            return Err(DynamicsError::WeakMotor { limit, least });
+        }
+    }
+    Ok(())
 }
 
 /// A led or driven run counter-clockwise.

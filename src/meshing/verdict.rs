@@ -298,6 +298,13 @@ fn judge_run(
     warnings: &mut Vec<Reason>,
 ) {
     let s = &run.summary;
+    // A figure that is no number passes every limit.
+    let figures =
+        [s.tracking_rms, s.swing, s.torque_rms, s.net_turn, s.contact_ratio, s.efficiency];
+    if run.stopped.is_none() && !figures.iter().all(|v| v.is_finite()) {
+        let at = run.steps.first().map_or(0.0, |step| step.driver_angle);
+        faults.push(Reason::FlungApart { at });
+    }
     match run.stopped {
         Some(Stop::Stalled { driver_angle }) => faults.push(Reason::Jam { at: driver_angle }),
         Some(Stop::Diverged { driver_angle }) => {

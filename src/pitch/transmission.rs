@@ -94,6 +94,13 @@ impl Transmission {
         }
         let period = TAU / f64::from(driver_fold);
         let rise = TAU / f64::from(follower_fold);
+        // Only their proportions count; numbers near the ends of the range would lose theirs in sums and quotients.
+        let largest = samples.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let (low, high) = policy::SAMPLE_RANGE;
+        if largest > 0.0 && !(low..=high).contains(&largest) {
+            let brought_near: Vec<f64> = samples.iter().map(|v| v / largest).collect();
+            return Self::from_derivative(&brought_near, driver_fold, follower_fold);
+        }
         let mean = samples.iter().sum::<f64>() / samples.len() as f64;
         if !(mean > 0.0 && mean.is_finite()) {
             let at = samples.iter().position(|&v| v <= 0.0).unwrap_or(0);

@@ -24,6 +24,11 @@ pub const ROUNDING_ACCEPTED: f64 = 0.03;
 pub const SMALLEST_CHOSEN_MODULE: f64 = 1.2;
 /// Fewest and most teeth on either gear.
 pub const TEETH_RANGE: (u32, u32) = (6, 1000);
+/// Distances between a flank and its chords that are taken, modules: finer ones cost minutes and megabytes for nothing that can
+/// be made or measured, coarser ones leave no tooth.
+pub const CHORD_TOLERANCE_RANGE: (f64, f64) = (4e-6, 0.1);
+/// Deepest root clearance, modules: four times the usual one; the roots of small gears then still keep away from the axis.
+pub const DEEPEST_ROOT_CLEARANCE: f64 = 1.0;
 /// Motion samples per period of the motion in every file.
 pub const MOTION_SAMPLES: usize = 1024;
 /// Points on a pitch curve in every file.

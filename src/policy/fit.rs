@@ -6,6 +6,9 @@
 pub const MIN_TRANSMISSION_SAMPLES: usize = 8;
 /// Least psi' over its mean. Below it a gear's radius is less than a thousandth of the other's: it passes through its own axis.
 pub const MIN_RELATIVE_SPEED: f64 = 1e-3;
+/// Greatest sample of psi' that is worked with as it is; larger and smaller ones are scaled first, for sums of their
+/// squares would overflow or vanish.
+pub const SAMPLE_RANGE: (f64, f64) = (1e-100, 1e100);
 /// Cap on safeguarded Newton steps; bisection alone reaches rounding in 53.
 pub const MAX_NEWTON_STEPS: usize = 60;
 

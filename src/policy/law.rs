@@ -10,6 +10,18 @@ pub const FORMULA_DEPTH: usize = 50;
 /// Relative difference by which psi' may fail to repeat before it is refused: ten times what rounding does
 /// to a formula of a hundred terms would be 1e-12, and a table rounded to six digits 1e-6.
 pub const LAW_REPEATS_WITHIN: f64 = 1e-5;
+/// Samples that may fail to repeat: those at the steps of a motion that has some.
+pub const LAW_STEPS: usize = 8;
+/// Distance of a function from the curve through its samples, in shares of its range, that counts as a miss.
+pub const LAW_MISS: f64 = 0.05;
+/// Share of the samples next to which a function may be missed: kinks and steps are few.
+pub const LAW_MISSES: f64 = 0.02;
+/// Most waves of psi' in a turn of the driver: eight teeth for each of the finest gear that is made.
+pub const LAW_WAVES: usize = 125;
+/// Range of psi' over its mean below which nothing counts as a wave.
+pub const LAW_FLAT: f64 = 1e-3;
+/// Share of the range on both sides of its middle that a wave must pass.
+pub const LAW_TREMBLE: f64 = 0.1;
 /// Relative difference of the mean of psi' from n/m that is taken for rounding and scaled away: constants typed with four
 /// digits.
 pub const LAW_CLOSES_WITHIN: f64 = 2e-4;

@@ -76,6 +76,11 @@ pub const STEPS_PER_TOOTH: u32 = 128;
 pub const MOST_STEPS: usize = 400_000;
 /// Cycles of one run by default: the second shows that the first was no accident.
 pub const SIMULATED_CYCLES: f64 = 2.0;
+/// Most cycles of one run: what goes wrong goes wrong in the first few.
+pub const MOST_CYCLES: f64 = 100.0;
+/// Torques (N mm), speeds (turns a minute), densities (kg/m^3) and the like that are taken: far beyond any gear on both
+/// sides, and nothing that is worked out from them overflows.
+pub const QUANTITY_RANGE: (f64, f64) = (1e-9, 1e9);
 /// Teeth of the driver that pass before anything is recorded, so that the load has settled.
 pub const LEAD_IN_TEETH: f64 = 1.0;
 /// Least kappa = I omega^2 max |psi''| / tau of a run: lighter followers are given a flywheel, for a

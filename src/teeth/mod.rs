@@ -88,7 +88,9 @@ pub enum TeethError {
         folds: u32,
     },
     /// The outline of a gear falls apart or crosses itself beyond repair.
-    #[error("the teeth of the {gear} run into one another; ask for more teeth or more smoothing")]
+    #[error(
+        "the teeth of the {gear} run into one another; ask for more teeth, or for a smoother shape or motion"
+    )]
     Tangled {
         /// Which gear.
         gear: &'static str,
