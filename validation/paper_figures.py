@@ -20,6 +20,14 @@ CARVING_POSES = 720
 NO_RUN = "--no-simulate"
 
 
+def told(reasons):
+    """The first of several sentences without its remedy, and how many follow."""
+    if not reasons:
+        return "-"
+    more = len(reasons) - 1
+    return reasons[0].split(";")[0] + (f" (and {more} more)" if more else "")
+
+
 def outlines(table):
     targets = {}
     for file in sorted((pathlib.Path(table).resolve().parent / "outlines").glob("*.*")):
@@ -253,7 +261,7 @@ def figure_20(bench, shapes, images):
         summary, record, folder = bench.design(f"figure-20-{style}", [shapes["fish"], shapes["butterfly"]], "--teeth", "48", NO_RUN,
                                                "--teeth-style", style)
         if record is None:
-            lines.append([style, "refused", "-", "-", summary.get("error", "")[:120]])
+            lines.append([style, "refused", "-", "-", told([summary.get("error", "")])])
             continue
         run = subprocess.run([bench.binary, "simulate", str(folder), "--json"], capture_output=True, text=True)
         said = json.loads(run.stdout) if run.stdout.strip() else {}
@@ -261,7 +269,7 @@ def figure_20(bench, shapes, images):
         lost[style] = meshing["lost_poses"]
         error = meshing["transmission_error_p99"]
         lines.append([style, f"{meshing['lost_poses']} of {meshing['poses']}", "-" if error is None else f"{100 * error:.2f}",
-                      said.get("verdict", "no run"), "; ".join(said.get("faults", []))[:160] or "-"])
+                      said.get("verdict", "no run"), told(said.get("faults", []))])
         if images:
             name = f"figure-20-{style}.svg"
             save(images, name, paper_pictures.three_poses(record, poses=1))
@@ -283,7 +291,7 @@ def figure_21(bench, shapes, images):
             continue
         alike, teeth = record["resemblance"], record["driver"]["teeth"]
         lines.append([name, teeth, f"{alike['driver_iou']:.3f} {alike['follower_iou']:.3f}", record["meshing"]["verdict"],
-                      "; ".join(record["meshing"]["warnings"])[:200] or "-"])
+                      told(record["meshing"]["warnings"])])
         if images:
             file = f"figure-21-{name}-{teeth}.svg"
             save(images, file, paper_pictures.three_poses(record, poses=1))

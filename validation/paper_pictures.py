@@ -58,7 +58,8 @@ def three_poses(record, part="outline", poses=3, alarm=None):
     world's frame."""
     L, motion = record["center_distance"], record["motion"]
     gears = [record["driver"], record["follower"]]
-    far = [reach(g[part]) for g in gears]
+    # The drawings stick out where bays were filled or corners rounded.
+    far = [max(reach(g[part]), reach(g["input"]) if part == "outline" and g["input"] else 0) for g in gears]
     height, left, right = 1.02 * max(far), 1.02 * far[0], L + 1.02 * far[1]
     width = left + right
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{-10 * left:.0f} {-10 * height:.0f} '

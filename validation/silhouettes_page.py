@@ -21,6 +21,8 @@ MEANINGS = [
      "leaves too little of them."),
     (r"contact is lost", "The pitch curves bend or lean so fast that, with as many teeth as were asked for, a flank ends "
      "before the next one takes hold. Up to four gentler settings were tried before."),
+    (r"play reaches", "Clearance, lean and small teeth together leave so much play that the teeth take hold at their tips only. "
+     "Pairs with less lean were tried before."),
     (r"driven backwards", "As above, in one sense of rotation only."),
     (r"transmission error reaches", "Contact is kept, but the follower swings by more than a quarter of a pitch."),
     (r"gears overlap", "The finished outlines overlap by more than 1e-4 module."),
@@ -198,6 +200,7 @@ def write(folder, rows, reason, font, options):
                                statistics.median(r["memory"] for r in rows), max(r["memory"] for r in rows)), ""]
     worst = sorted(rows, key=lambda r: -r["processor"])[:10]
     worst += [r for r in sorted(rows, key=lambda r: -r["memory"])[:10] if r not in worst]
+    worst.sort(key=lambda r: -r["processor"])
     text += table(["pair", "s", "MB", "outcome"],
                   [[told(r), f"{r['processor']:.1f}", f"{r['memory']:.0f}", r["outcome"]] for r in worst])
     (folder / "random_silhouettes.md").write_text("\n".join(text), encoding="utf-8")

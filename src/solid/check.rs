@@ -47,7 +47,7 @@ pub enum Fault {
         z: f64,
     },
     /// More than one body.
-    #[error("it has {bodies} bodies instead of one")]
+    #[error("somewhere it is too thin to hold together, and it has {bodies} bodies")]
     NotOneBody {
         /// Bodies found.
         bodies: usize,

@@ -95,7 +95,7 @@ pub enum SolidError {
     },
     /// The mesh of the finished solid failed the check.
     #[error(
-        "the solid of {part} is not sound: {fault}; change the outline or the thickness a little, and report the drawing"
+        "the solid of {part} is not sound: {fault}; take fewer teeth, less clearance or a stouter shape, and report the drawing if that does not help"
     )]
     Unsound {
         /// Name of the part.

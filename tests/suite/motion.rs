@@ -88,6 +88,52 @@ fn a_part_of_a_turn_is_followed_and_the_rest_closes() {
 }
 
 #[test]
+fn sectors_keep_the_teeth_of_their_part_and_swing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("sector").to_string_lossy().into_owned();
+    let law = ["motion", "0.7 + 0.2*phi", "--from", "30", "--to", "150"];
+    let said = centrode(law.iter().copied().chain([
+        "--sector",
+        "--no-simulate",
+        "--export",
+        "json,svg,glb,stl",
+        "-o",
+        &out,
+    ]));
+    assert_eq!(said.status.code(), Some(0), "{}", complaint(&said));
+    let text = fs::read_to_string(folder.path().join("sector/design.json")).unwrap();
+    let record: Value = serde_json::from_str(&text).unwrap();
+    let whole = made(&law);
+    assert_eq!(record["motion"]["swings"], true);
+    // The samples are the way there, from the beginning of the part on.
+    let driver = numbers(&record["motion"]["driver_angle"]);
+    assert!((driver[driver.len() - 1] - TAU / 3.0).abs() < 1e-12);
+    let from = TAU / 12.0;
+    follows(&record, |x| 0.7 * x + 0.1 * ((from + x).powi(2) - from * from), 1e-4);
+    let area = |record: &Value, gear: &str| {
+        let ring: Vec<Vec<f64>> = serde_json::from_value(record[gear]["outline"].clone()).unwrap();
+        let next = ring.iter().cycle().skip(1);
+        0.5 * ring.iter().zip(next).map(|(p, q)| p[0] * q[1] - p[1] * q[0]).sum::<f64>()
+    };
+    for gear in ["driver", "follower"] {
+        let share = area(&record, gear) / area(&whole, gear);
+        assert!((0.2..0.7).contains(&share), "{gear}: {share}");
+    }
+    // The record makes the same files again; what turns whole gears refuses it.
+    let again = folder.path().join("again").to_string_lossy().into_owned();
+    let said = centrode(["export", &out, "--export", "glb", "-o", &again]);
+    assert_eq!(said.status.code(), Some(0), "{}", complaint(&said));
+    let bytes = |place: &str| fs::read(folder.path().join(place).join("pair.glb")).unwrap();
+    assert_eq!(bytes("sector"), bytes("again"));
+    for command in [vec!["simulate", &out], vec!["train", &out, "-o", &again]] {
+        let said = centrode(&command);
+        assert_eq!(said.status.code(), Some(2), "{command:?}");
+        assert!(complaint(&said).contains("--sector"), "{}", complaint(&said));
+    }
+    refuses(&["motion", "1", "--sector"], &["--from"]);
+}
+
+#[test]
 fn three_turns_may_make_two() {
     let record = made(&["motion", "(1 + 0.2*cos(2*phi))*2/3", "--ratio", "3:2"]);
     follows(&record, |phi| (phi + 0.1 * (2.0 * phi).sin()) * 2.0 / 3.0, 1e-8);
