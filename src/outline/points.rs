@@ -40,9 +40,9 @@ pub enum PointsError {
         /// The line, shortened.
         text: String,
     },
-    /// A header of three columns or more, none of them x or none y.
+    /// A header over three columns of numbers or more without x or without y.
     #[error(
-        "line {line} (`{text}`) names none of its columns x or none y; call those of the outline x and y"
+        "line {line} (`{text}`) does not say which of its columns are x and y; call them x and y there"
     )]
     NoXy {
         /// Number of the line, from 1.
