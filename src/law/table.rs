@@ -102,7 +102,9 @@ impl Table {
             });
         };
         let periods = (turn * fold / TAU).round();
-        let repeats_first = turn - span < 0.5 * typical;
+        // Steps may be uneven: what is missing at the end is judged by the turn and by the steps beside it.
+        let beside = (self.angles[1] - self.angles[0]).min(self.angles[n - 1] - self.angles[n - 2]);
+        let repeats_first = turn - span < (policy::TABLE_TURN_WITHIN * turn).min(0.5 * beside);
         let count = if repeats_first { n - 1 } else { n };
         // psi less its even part is periodic.
         let slope = rise * periods / turn;
@@ -331,6 +333,36 @@ mod tests {
             .transmission(&options)
             .unwrap_err();
         assert!(matches!(error, LawError::NotPeriodic { folds: 2, .. }), "{error}");
+    }
+
+    #[test]
+    fn uneven_steps_do_not_make_the_last_row_repeat_the_first() {
+        let psi = |phi: f64| phi + 0.1 * phi.sin();
+        let rows: String = [0, 40, 80, 120, 160, 200, 240, 280, 320, 340, 350]
+            .iter()
+            .map(|&d| f64::from(d))
+            .map(|d| format!("{d},{}\n", psi(d.to_radians()).to_degrees()))
+            .collect();
+        let made = read(&rows, Quantity::Angle).unwrap();
+        for k in 0..30 {
+            let phi = 0.21 * f64::from(k);
+            // Steps of 40 degrees leave the spline 1e-3 off.
+            assert!((made.derivative(phi) - 1.0 - 0.1 * phi.cos()).abs() < 1e-2, "{phi}");
+        }
+        let law = |phi: f64| 1.0 + 0.1 * phi.sin();
+        let degrees = (0..=30).map(|i| 10 * i).chain((151..=179).map(|i| 2 * i));
+        let rows: String =
+            degrees.map(f64::from).map(|d| format!("{d},{}\n", law(d.to_radians()))).collect();
+        for text in [rows.clone(), rows + "360,1\n"] {
+            let made = read(&text, Quantity::Speed).unwrap();
+            for k in 0..30 {
+                let phi = 0.21 * f64::from(k);
+                assert!((made.derivative(phi) - law(phi)).abs() < 1e-3, "{phi}");
+            }
+        }
+        // Rounded to hundredths, the last row still is one turn after the first.
+        let rounded = written(60, true, |x| format!("{x:.2} {}", law(x)));
+        assert!(read(&rounded, Quantity::Speed).is_ok());
     }
 
     #[test]

@@ -33,6 +33,11 @@ impl Field {
         2 * border.iter().filter(|v| **v > 0.0).count() > border.len()
     }
 
+    /// Whether all of the border is positive.
+    pub(super) fn wholly_positive_border(&self) -> bool {
+        self.border().all(|v| v > 0.0)
+    }
+
     fn border(&self) -> impl Iterator<Item = f32> {
         let (w, h) = (self.width, self.height);
         let rows = (0..w).flat_map(move |x| [(x, 0), (x, h - 1)]);

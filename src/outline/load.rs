@@ -69,6 +69,12 @@ pub enum LoadError {
         /// The path as given.
         path: String,
     },
+    /// A pipe or a device.
+    #[error("{path}: this is no regular file; name a drawing")]
+    NoRegularFile {
+        /// The path as given.
+        path: String,
+    },
     /// The file exists but cannot be read.
     #[error("{path}: {reason}; check that the file may be read")]
     Unreadable {
@@ -198,9 +204,6 @@ pub(super) fn bounded(bytes: &[u8], source: &str) -> Result<(), LoadError> {
 pub(super) fn read_file(source: &str) -> Result<Vec<u8>, LoadError> {
     let path = || source.to_owned();
     let place = Path::new(source);
-    if place.is_dir() {
-        return Err(LoadError::Folder { path: path() });
-    }
     let unreadable = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound if source.contains(['/', '\\', '.']) => {
             LoadError::Missing { path: path() }
@@ -211,6 +214,14 @@ pub(super) fn read_file(source: &str) -> Result<Vec<u8>, LoadError> {
         }
         _ => LoadError::Unreadable { path: path(), reason: error.to_string() },
     };
+    // Before it is opened: a pipe that nobody writes to would wait for ever.
+    let kind = std::fs::metadata(place).map_err(unreadable)?.file_type();
+    if kind.is_dir() {
+        return Err(LoadError::Folder { path: path() });
+    }
+    if !kind.is_file() {
+        return Err(LoadError::NoRegularFile { path: path() });
+    }
     let file = File::open(place).map_err(unreadable)?;
     let mut bytes = Vec::new();
     file.take(policy::INPUT_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
@@ -333,6 +344,18 @@ mod tests {
         assert!(matches!(failure(&sparse), LoadError::TooLarge { .. }));
         let nul = "a\0b.svg";
         assert!(load(nul, &LoadOptions::default()).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn pipes_and_devices_are_refused_without_waiting() {
+        assert!(matches!(failure("/dev/null"), LoadError::NoRegularFile { .. }));
+        let folder = Folder::new();
+        let pipe = folder.0.path().join("pipe.svg").to_string_lossy().into_owned();
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        if made.is_ok_and(|status| status.success()) {
+            assert!(matches!(failure(&pipe), LoadError::NoRegularFile { .. }));
+        }
     }
 
     #[test]

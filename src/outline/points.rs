@@ -40,6 +40,16 @@ pub enum PointsError {
         /// The line, shortened.
         text: String,
     },
+    /// A header over three columns of numbers or more without x or without y.
+    #[error(
+        "line {line} (`{text}`) does not say which of its columns are x and y; call them x and y there"
+    )]
+    NoXy {
+        /// Number of the line, from 1.
+        line: usize,
+        /// The line, shortened.
+        text: String,
+    },
     /// The JSON text is malformed.
     #[error(
         "line {line}, column {column}: {reason}; write [[x, y], ...] or {{\"points\": [[x, y], ...]}}"
@@ -70,8 +80,11 @@ pub enum PointsError {
 ///
 /// Columns are separated by commas, semicolons, tabs or blanks; in lines with semicolons or tabs, and between blanks
 /// where each number has one inside, a comma is a decimal point. Empty lines and whatever follows `#` are skipped. A first line
-/// without any number is a header; if it names columns `x` and `y`, those are taken, otherwise
-/// the first two. A repeated last point is dropped.
+/// without any number is a header; if it names columns `x` and `y`, those are taken: the first word of a name counts, in
+/// capitals or not, so `X [mm]` is one of them. Other names are refused over three columns of numbers and more; otherwise
+/// the first two are taken. Without a header, where the first of three columns or more counts up by one from row to row
+/// (in [`policy::COUNTED_ROWS`] rows or more), it numbers the points, and the next two are taken: no closed outline has
+/// such an x. A repeated last point is dropped.
 ///
 /// # Errors
 /// See [`PointsError`]; messages name the line.
@@ -86,6 +99,10 @@ pub(super) fn columns(text: &[u8], limit: usize) -> Result<Vec<Point>, PointsErr
     let mut header_allowed = true;
     // The first line, while all lines could be two numbers with decimal commas and a comma between.
     let mut torn = None;
+    // A header that does not name x and y.
+    let mut nameless = None;
+    // The second and third columns, while there is no header and the first column counts.
+    let mut counted = Some((0.0, Vec::new()));
     for (index, line) in plain_text(text, limit)?.lines().enumerate() {
         let data = line.split('#').next().unwrap_or_default().trim();
         if data.is_empty() {
@@ -94,11 +111,29 @@ pub(super) fn columns(text: &[u8], limit: usize) -> Result<Vec<Point>, PointsErr
         let fields = split_fields(data);
         let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
         if header_allowed && numbers.iter().all(Option::is_none) {
-            let named =
-                |name| fields.iter().position(|f| f.trim_matches('"').eq_ignore_ascii_case(name));
-            columns = named("x").zip(named("y")).unwrap_or(columns);
+            match named_columns(&fields) {
+                Some(named) => columns = named,
+                None => {
+                    nameless =
+                        Some((index + 1, quoted(&data.chars().take(40).collect::<String>())));
+                }
+            }
+            counted = None;
         } else {
             let column = |i: usize| numbers.get(i).copied().flatten().filter(|v| v.is_finite());
+            if let Some((line, text)) = nameless.take()
+                && numbers.iter().flatten().count() > 2
+            {
+                return Err(PointsError::NoXy { line, text });
+            }
+            counted = counted.and_then(|(last, mut others)| {
+                let number = column(0).filter(|n| n.fract() == 0.0)?;
+                if !others.is_empty() && number != last + 1.0 {
+                    return None;
+                }
+                others.push(Point::new(column(1)?, column(2)?));
+                Some((number, others))
+            });
             let Some((x, y)) = column(columns.0).zip(column(columns.1)) else {
                 let text = quoted(&data.chars().take(40).collect::<String>());
                 return Err(PointsError::BadLine { line: index + 1, text });
@@ -114,7 +149,23 @@ pub(super) fn columns(text: &[u8], limit: usize) -> Result<Vec<Point>, PointsErr
     if let Some((line, text)) = torn {
         return Err(PointsError::DecimalCommas { line, text });
     }
-    Ok(points)
+    match counted {
+        Some((_, others)) if others.len() >= policy::COUNTED_ROWS => Ok(others),
+        _ => Ok(points),
+    }
+}
+
+/// Where a header names x and y: the first word of a name counts, and words in brackets alone are units.
+fn named_columns(header: &[String]) -> Option<(usize, usize)> {
+    let names = header.iter().filter(|field| !field.starts_with(['[', '(']));
+    let first_words: Vec<&str> = names
+        .map(|name| {
+            let name = name.trim_start_matches(|c: char| !c.is_alphanumeric());
+            name.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()
+        })
+        .collect();
+    let named = |name| first_words.iter().position(|word| word.eq_ignore_ascii_case(name));
+    named("x").zip(named("y"))
 }
 
 /// The fields of a line of numbers; see [`from_columns`].
@@ -215,6 +266,30 @@ mod tests {
         for text in ways {
             let outline = from_columns(text.as_bytes()).unwrap();
             assert_eq!(outline.points(), square(), "{text}");
+        }
+    }
+
+    #[test]
+    fn columns_of_numbers_and_units_in_headers_do_not_mislead() {
+        let ways = [
+            "id,X [mm],Y [mm]\n1,0,0\n2,1.5,0\n3,1.5,1\n4,0,1\n",
+            "nr;\"x_mm\";\"y_mm\"\n1;0;0\n2;1,5;0\n3;1,5;1\n4;0;1\n",
+            "X (mm) Y (mm)\n0 0\n1.5 0\n1.5 1\n0 1\n",
+            "The outline of a gear\n0 0\n1.5 0\n1.5 1\n0 1\n",
+            "1,0,0\n2,1.5,0\n3,1.5,1\n4,0,1\n",
+            "0\t0\t0\n1\t1.5\t0\n2\t1.5\t1\n3\t0\t1\n4\t0\t0\n",
+        ];
+        for text in ways {
+            let outline = from_columns(text.as_bytes()).unwrap();
+            assert_eq!(outline.points(), square(), "{text}");
+        }
+        let nameless = from_columns(b"# gear\nid,east,north\n1,0,0\n2,3,0\n3,3,2\n").unwrap_err();
+        assert!(matches!(nameless, PointsError::NoXy { line: 2, .. }), "{nameless:?}");
+        assert!(nameless.to_string().contains("; call"), "{nameless}");
+        // The first column does not count, or not for long enough.
+        for text in ["0,0,7\n1,0,7\n2,1,7\n1,1,7\n", "0,0,1\n1,0,2\n2,1,4\n"] {
+            let first = from_columns(text.as_bytes()).unwrap().points()[0];
+            assert_eq!(first, Point::new(0.0, 0.0), "{text}");
         }
     }
 

@@ -5,7 +5,9 @@ use super::{Outline, OutlineError, repaired};
 use crate::geometry::Point;
 use crate::policy;
 use crate::wording::quoted;
-use image::{DynamicImage, ImageDecoder, ImageError as DecodeError, ImageReader};
+use image::{
+    DynamicImage, GrayAlphaImage, ImageDecoder, ImageError as DecodeError, ImageReader, LumaA,
+};
 use std::io::Cursor;
 
 /// Why an image gives no outline.
@@ -43,10 +45,16 @@ pub enum ImageError {
     /// All pixels have nearly one brightness.
     #[error("the image is all of one colour; use a dark shape on a light ground or the reverse")]
     OneColour,
-    /// Nothing lies on the far side of the threshold.
+    /// All there is are specks.
+    #[error("no shape in the image has {pixels} pixels or more; use a larger picture of it")]
+    OnlySpecks {
+        /// Pixels of the smallest silhouette.
+        pixels: usize,
+    },
+    /// Nothing lies on the far side of the threshold that was given.
     #[error("threshold {threshold} leaves no shape in the image; try another or leave it out")]
     NoShape {
-        /// The threshold used.
+        /// The threshold given.
         threshold: u8,
     },
     /// The contour does not make an outline.
@@ -56,9 +64,12 @@ pub enum ImageError {
 
 /// Reads the largest silhouette of a PNG, JPEG, TIFF or BMP image, with its holes filled.
 ///
-/// What separates shape from ground is transparency if it varies across the middle, otherwise
-/// brightness: `threshold` (pixels darker than it on one side) or, without one, Otsu's. The
-/// ground is what most of the image's border is. After a blur of [`policy::IMAGE_BLUR`] pixels
+/// Where a share of [`policy::IMAGE_CLEAR_SHARE`] or more is transparent (less than half as opaque as the most opaque pixel),
+/// what is opaque is the shape; only if the whole border is opaque, as around a stencil, is it the hole. A picture whose
+/// opaque part has two colours and is nearly all of it, a card with rounded corners, is read like one without
+/// transparency, as if it lay on white: by brightness, where `threshold` (pixels darker than it on one side) or, without one,
+/// Otsu's separates the shape from the ground, which is what most of the image's border is.
+/// After a blur of [`policy::IMAGE_BLUR`] pixels
 /// the contour is interpolated between pixel centres, so it has no pixel stairs; a shape cut
 /// off by the border is closed along it. The unit is one pixel, y upwards from the lower edge.
 /// Images above [`policy::IMAGE_PIXELS_TRACED`] are averaged down first.
@@ -66,23 +77,28 @@ pub enum ImageError {
 /// # Errors
 /// See [`ImageError`]. The size is checked from the header, before anything is decoded.
 pub fn from_image(bytes: &[u8], threshold: Option<u8>) -> Result<Outline, ImageError> {
-    let (grey, from_alpha) = samples(&decoded(bytes)?);
+    let (grey, clear_level) = samples(&decoded(bytes)?);
     let (dark, light) = grey.range();
     if light.saturating_sub(dark) < policy::IMAGE_CONTRAST {
         return Err(ImageError::OneColour);
     }
     let level = match threshold {
         Some(value) => f64::from(value) - 0.5,
-        None if from_alpha => 127.5,
-        None => otsu(&grey.histogram()),
+        None => clear_level.unwrap_or_else(|| otsu(&grey.histogram())),
     };
     let mut field = grey.averaged(level);
-    if field.mostly_positive_border() {
+    let reversed = match clear_level {
+        Some(_) => field.wholly_positive_border(),
+        None => field.mostly_positive_border(),
+    };
+    if reversed {
         field.negate();
     }
     let scale = f64::from(grey.width) / field.covered_width();
-    let contour = largest_contour(&field, policy::IMAGE_BLUR)
-        .ok_or(ImageError::NoShape { threshold: level.ceil().clamp(0.0, 255.0) as u8 })?;
+    let contour = largest_contour(&field, policy::IMAGE_BLUR).ok_or(match threshold {
+        Some(threshold) => ImageError::NoShape { threshold },
+        None => ImageError::OnlySpecks { pixels: policy::IMAGE_SHAPE_PIXELS },
+    })?;
     let height = f64::from(grey.height);
     let points = contour.iter().map(|p| Point::new(scale * p.x, height - scale * p.y)).collect();
     Ok(repaired(points)?)
@@ -124,19 +140,50 @@ struct Samples {
     height: u32,
 }
 
-/// The picture's opacity (reversed, so that opaque is low) if it varies, else its brightness.
-fn samples(picture: &DynamicImage) -> (Samples, bool) {
+/// The picture's opacity, reversed so that opaque is low, and the level that halves the greatest, if opacity decides what
+/// the shape is; else its brightness on a white ground.
+fn samples(picture: &DynamicImage) -> (Samples, Option<f64>) {
     let (width, height) = (picture.width(), picture.height());
-    if picture.color().has_alpha() {
-        let both = picture.to_luma_alpha8();
-        let clear = both.pixels().any(|p| p.0[1] < 128);
-        let opaque = both.pixels().any(|p| p.0[1] >= 128);
-        if clear && opaque {
-            let values = both.pixels().map(|p| 255 - p.0[1]).collect();
-            return (Samples { values, width, height }, true);
-        }
+    let of = |values| Samples { values, width, height };
+    if !picture.color().has_alpha() {
+        return (of(picture.to_luma8().into_raw()), None);
     }
-    (Samples { values: picture.to_luma8().into_raw(), width, height }, false)
+    let both = picture.to_luma_alpha8();
+    let most = both.pixels().map(|p| p.0[1]).max().unwrap_or(0);
+    if most == 0 {
+        // Opacity was never filled in.
+        return (of(both.pixels().map(|p| p.0[0]).collect()), None);
+    }
+    if opacity_decides(&both, most) {
+        let values = both.pixels().map(|p| 255 - p.0[1]).collect();
+        return (of(values), Some(255.0 - 0.5 * f64::from(most)));
+    }
+    let on_white = |p: &LumaA<u8>| {
+        let [grey, opacity] = p.0.map(u32::from);
+        let most = u32::from(most);
+        255 - (((255 - grey) * opacity + most / 2) / most) as u8
+    };
+    (of(both.pixels().map(on_white).collect()), None)
+}
+
+/// Whether enough is transparent for a ground, and what is opaque is no picture of its own.
+fn opacity_decides(both: &GrayAlphaImage, most: u8) -> bool {
+    let mut brightness = [0_u64; 256];
+    for pixel in both.pixels().filter(|p| 2 * u16::from(p.0[1]) >= u16::from(most)) {
+        brightness[usize::from(pixel.0[0])] += 1;
+    }
+    let pixels = f64::from(both.width()) * f64::from(both.height());
+    let opaque: u64 = brightness.iter().sum();
+    let fair = policy::IMAGE_CLEAR_SHARE * pixels;
+    if pixels - (opaque as f64) < fair {
+        return false;
+    }
+    let present = || (0..256).filter(|v| brightness[*v] > 0);
+    let (low, high) = (present().min().unwrap_or(0), present().max().unwrap_or(0));
+    let dark: u64 = brightness[..(low + high).div_ceil(2)].iter().sum();
+    let two_colours =
+        high - low >= usize::from(policy::IMAGE_CONTRAST) && dark.min(opaque - dark) as f64 >= fair;
+    !two_colours || (opaque as f64) < policy::IMAGE_CARD_SHARE * pixels
 }
 
 impl Samples {

@@ -1,5 +1,5 @@
 use super::*;
-use image::{GrayImage, ImageFormat, Luma, LumaA, Rgb, RgbImage};
+use image::{GrayImage, ImageFormat, Luma, Rgb, RgbImage};
 use std::f64::consts::PI;
 
 fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
@@ -56,6 +56,61 @@ fn every_format_and_an_alpha_channel_give_the_disc() {
     let opaque =
         image::GrayAlphaImage::from_fn(120, 100, |x, y| LumaA([mask.get_pixel(x, y)[0], 255]));
     assert_is_the_disc(&from_image(&encoded(opaque, Png), None).unwrap(), 0.2);
+}
+
+/// A picture of brightness and opacity, 120 by 100.
+fn veiled(pixel: impl Fn(u32, u32) -> [u8; 2]) -> Vec<u8> {
+    let picture = GrayAlphaImage::from_fn(120, 100, |x, y| LumaA(pixel(x, y)));
+    encoded(picture, ImageFormat::Png)
+}
+
+/// Whether a pixel lies in one of four corners cut off, together 2.6 % of 120 by 100.
+fn corner(x: u32, y: u32) -> bool {
+    x.min(119 - x) + y.min(99 - y) < 12
+}
+
+#[test]
+fn a_card_with_transparent_corners_is_read_by_what_is_drawn_on_it() {
+    for (shape, ground) in [(20, 240), (240, 20)] {
+        let drawn = disc(shape, ground);
+        let hidden = if ground > 128 { 0 } else { ground };
+        let card =
+            veiled(|x, y| if corner(x, y) { [hidden, 0] } else { [drawn.get_pixel(x, y)[0], 255] });
+        assert_is_the_disc(&from_image(&card, None).unwrap(), 0.3);
+    }
+    // All of one colour: the card itself is the shape, though it covers most of the border.
+    let plain = veiled(|x, y| [77, if corner(x, y) { 0 } else { 255 }]);
+    let area = from_image(&plain, None).unwrap().area();
+    assert!((area / 11_688.0 - 1.0).abs() < 0.01, "{area}");
+}
+
+#[test]
+fn a_few_transparent_pixels_do_not_matter() {
+    let drawn = disc(0, 255);
+    let stray = veiled(|x, y| [drawn.get_pixel(x, y)[0], if (x, y) == (3, 4) { 0 } else { 255 }]);
+    assert_is_the_disc(&from_image(&stray, None).unwrap(), 0.2);
+}
+
+#[test]
+fn faint_shapes_and_stencils_are_found_by_their_opacity() {
+    let mask = disc(1, 0);
+    let inside = |x, y| mask.get_pixel(x, y)[0] == 1;
+    let faint = veiled(|x, y| [0, if inside(x, y) { 100 } else { 0 }]);
+    assert_is_the_disc(&from_image(&faint, None).unwrap(), 0.2);
+    let stencil = veiled(|x, y| [200, if inside(x, y) { 0 } else { 255 }]);
+    assert_is_the_disc(&from_image(&stencil, None).unwrap(), 0.2);
+    let even = veiled(|x, y| [if inside(x, y) { 0 } else { 255 }, 100]);
+    assert_is_the_disc(&from_image(&even, None).unwrap(), 0.2);
+}
+
+#[test]
+fn specks_are_refused_without_a_word_of_a_threshold() {
+    let specks =
+        GrayImage::from_fn(60, 60, |x, y| Luma([if (x, y) == (20, 30) { 0 } else { 255 }]));
+    let error = from_image(&encoded(specks, ImageFormat::Png), None).unwrap_err();
+    assert_eq!(error, ImageError::OnlySpecks { pixels: policy::IMAGE_SHAPE_PIXELS });
+    let said = error.to_string();
+    assert!(said.contains("; use") && !said.contains("threshold"), "{said}");
 }
 
 #[test]

@@ -70,9 +70,26 @@ pub enum SvgError {
     },
     /// Width, height or view box are zero, negative or not finite.
     #[error(
-        "its width, height or viewBox is not positive; set viewBox=\"0 0 100 100\" or the like"
+        "its width, height or viewBox is not positive; remove width and height or make them positive, and set \
+         viewBox=\"0 0 100 100\" or the like"
     )]
     NoSize,
+    /// Coordinates so small that the reader loses its arcs.
+    #[error(
+        "its shapes are {size:.1e} wide in their own units, less than the {least:e} that arcs need; scale the drawing up"
+    )]
+    Tiny {
+        /// Width or height of the largest shape before transforms.
+        size: f64,
+        /// The least that is read.
+        least: f64,
+    },
+    /// Path data that breaks off, so that nothing is drawn.
+    #[error("its path data `{text}` cannot be read; correct it, or save the drawing again")]
+    PathData {
+        /// The path data, shortened.
+        text: String,
+    },
     /// No drawn element at all.
     #[error("it draws nothing; add a closed, filled path")]
     Empty,
@@ -91,7 +108,7 @@ pub enum SvgError {
     /// Filled paths, but none is closed.
     #[error(
         "its path is open between ({start_x:.4}, {start_y:.4}) and ({end_x:.4}, {end_y:.4}); \
-         close it there (add Z to its data)"
+         close it there (end its data with Z, or make a polyline a polygon)"
     )]
     OpenPath {
         /// Where the largest open contour starts, in the units of the drawing, y downwards.
@@ -111,7 +128,8 @@ pub enum SvgError {
 /// Reads the largest closed, filled shape of an SVG drawing.
 ///
 /// Transforms, groups, styles and `use` are applied; strokes, text, images, markers, masks and
-/// clip paths are ignored, as is a rectangle that covers the canvas behind other shapes.
+/// clip paths are ignored, as are what is wholly transparent and a rectangle, with corners rounded or not, that covers the
+/// canvas beside other shapes.
 /// Contours that overlap or touch (within [`policy::TOUCH_DISTANCE`]) are united, the component
 /// with the largest area is kept and its holes are dropped. Contours that are not closed are
 /// left out unless their ends nearly meet. Nothing outside the text is ever read.
@@ -150,7 +168,7 @@ pub fn from_svg(text: &[u8], tolerance: f64) -> Result<Outline, SvgError> {
 fn collect_filled<'a>(group: &'a usvg::Group, paths: &mut Vec<&'a usvg::Path>) {
     for node in group.children() {
         match node {
-            usvg::Node::Group(inner) => collect_filled(inner, paths),
+            usvg::Node::Group(inner) if inner.opacity().get() > 0.0 => collect_filled(inner, paths),
             usvg::Node::Path(path) => {
                 let painted = path.fill().is_some_and(|fill| fill.opacity().get() > 0.0);
                 if path.is_visible() && painted {
@@ -178,6 +196,7 @@ fn outline_of(paths: &[&usvg::Path], canvas: Point, tolerance: f64) -> Result<Ou
         .map(|(x, y)| Point::new(f64::from(x), f64::from(y)))
         .collect();
     check_coordinates(&corners)?;
+    refuse_tiny(paths)?;
     let (low, high) = geometry::bounds(&corners);
     let diagonal = (high - low).norm();
     if diagonal < policy::OUTLINE_RANGE.0 {
@@ -228,6 +247,15 @@ fn outline_of(paths: &[&usvg::Path], canvas: Point, tolerance: f64) -> Result<Ou
     Ok(simple(upwards)?)
 }
 
+/// Refuses shapes whose own coordinates, before transforms, are too small for the reader's arcs.
+pub(super) fn refuse_tiny(paths: &[&usvg::Path]) -> Result<(), SvgError> {
+    let sides = paths.iter().map(|p| p.data().bounds());
+    let size = sides.map(|b| f64::from(b.width().max(b.height()))).fold(0.0, f64::max);
+    let least = policy::SVG_LEAST_SIZE;
+    // Without any extent they enclose no area, which is said elsewhere.
+    if size > 0.0 && size < least { Err(SvgError::Tiny { size, least }) } else { Ok(()) }
+}
+
 /// A contour that falls apart into loops must not lose more than a repair may.
 fn refuse_broken_contours<'a>(
     contours: impl Iterator<Item = &'a Contour>,
@@ -263,12 +291,12 @@ fn nothing_closed<'a>(contours: impl Iterator<Item = &'a Contour>) -> SvgError {
     }
 }
 
-/// Whether the contour is an upright rectangle over the whole canvas.
+/// Whether the contour is an upright rectangle over the whole canvas, but for its corners.
 fn covers(points: &[Point], canvas: Point) -> bool {
     let (low, high) = geometry::bounds(points);
     let box_area = (high.x - low.x) * (high.y - low.y);
     let slack = policy::BACKGROUND_SLACK * canvas.coords;
-    geometry::area(points) > (1.0 - 1e-4) * box_area
+    geometry::area(points) > policy::BACKGROUND_SHARE * box_area
         && low.x <= slack.x
         && low.y <= slack.y
         && high.x >= canvas.x - slack.x

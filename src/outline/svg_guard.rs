@@ -183,11 +183,72 @@ fn reference<'a>(node: Node<'a, '_>) -> Option<&'a str> {
     node.attribute("href").or_else(|| node.attribute(("http://www.w3.org/1999/xlink", "href")))
 }
 
+/// Whether path data can be read to its end: known commands, each with as many numbers as it takes.
+fn is_path_data(data: &str) -> bool {
+    let data = data.trim();
+    let is_command = |c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E');
+    let starts: Vec<usize> =
+        data.char_indices().filter(|(_, c)| is_command(*c)).map(|(at, _)| at).collect();
+    let ends = starts.iter().skip(1).copied().chain([data.len()]);
+    let complete = starts.iter().zip(ends).all(|(&start, end)| {
+        let numbers = data.get(start + 1..end).and_then(count_numbers);
+        numbers.is_some_and(|count| match data.as_bytes()[start].to_ascii_lowercase() {
+            b'm' | b'l' | b't' => count > 0 && count % 2 == 0,
+            b'h' | b'v' => count > 0,
+            b's' | b'q' => count > 0 && count % 4 == 0,
+            b'c' => count > 0 && count % 6 == 0,
+            // Flags may be written without a blank behind them.
+            b'a' => count >= 4,
+            b'z' => count == 0,
+            _ => false,
+        })
+    });
+    data.is_empty() || (data.starts_with(['M', 'm']) && complete)
+}
+
+/// How many numbers stand between two commands, or none if there is something else.
+fn count_numbers(text: &str) -> Option<usize> {
+    let (mut count, mut within, mut point, mut exponent, mut after_e) =
+        (0, false, false, false, false);
+    for c in text.chars() {
+        let starts = match c {
+            '0'..='9' => !within,
+            '.' => !within || point || exponent,
+            '+' | '-' => !after_e,
+            'e' | 'E' if within && !exponent => {
+                (exponent, after_e) = (true, true);
+                continue;
+            }
+            ',' => {
+                within = false;
+                continue;
+            }
+            c if c.is_ascii_whitespace() => {
+                within = false;
+                continue;
+            }
+            _ => return None,
+        };
+        if starts {
+            count += 1;
+            (within, point, exponent) = (true, false, false);
+        }
+        point |= c == '.';
+        after_e = false;
+    }
+    Some(count)
+}
+
 /// The reason to tell when no visible filled path was found.
 pub(super) fn why_nothing_is_filled(document: &Document) -> SvgError {
     const SHAPES: [&str; 7] = ["path", "rect", "circle", "ellipse", "polygon", "polyline", "line"];
     let has = |test: &dyn Fn(Node) -> bool| document.descendants().any(test);
     let named = |n: Node, names: &[&str]| names.contains(&n.tag_name().name());
+    let paths = document.descendants().filter(|n| named(*n, &["path"]));
+    if let Some(data) = paths.filter_map(|n| n.attribute("d")).find(|d| !is_path_data(d)) {
+        let text = quoted(&data.trim().chars().take(40).collect::<String>());
+        return SvgError::PathData { text };
+    }
     if has(&|n| named(n, &SHAPES)) {
         SvgError::NothingFilled
     } else if has(&|n| named(n, &["text"])) {

@@ -87,6 +87,42 @@ fn a_background_behind_the_shape_is_left_out() {
     let body = r#"<rect width="100" height="100" fill="white"/><rect x="20" y="20" width="30" height="30"/>"#;
     near(area(body), 900.0, 1e-6);
     near(area(r#"<rect width="100" height="100"/>"#), 10_000.0, 1e-6);
+    let card = r#"<rect width="100" height="100" rx="10" fill="white"/>"#;
+    near(area(&format!(r#"{card}<rect x="20" y="20" width="30" height="30"/>"#)), 900.0, 1e-6);
+    near(area(card), 10_000.0 - (4.0 - PI) * 100.0, 1e-3);
+    // A disc that touches all sides is no background.
+    let disc = r#"<circle cx="50" cy="50" r="50"/><rect width="3" height="3"/>"#;
+    near(area(disc), PI * 2500.0, 2e-3);
+}
+
+#[test]
+fn what_is_wholly_transparent_is_left_out() {
+    let small = r#"<rect x="20" y="20" width="30" height="30"/>"#;
+    let large = r#"<rect width="90" height="80"/>"#;
+    near(area(&format!(r#"<g opacity="0"><g>{large}</g></g>{small}"#)), 900.0, 1e-6);
+    near(area(&format!(r#"<g opacity="0.5">{large}</g>{small}"#)), 7200.0, 1e-6);
+    let hidden = read(&format!(r#"<g opacity="0">{large}</g>"#)).unwrap_err();
+    assert_eq!(hidden, SvgError::NothingFilled);
+}
+
+#[test]
+fn shapes_too_small_for_arcs_are_refused() {
+    let of = |size: f64| {
+        let text = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size} {size}">
+            <ellipse cx="{c}" cy="{c}" rx="{rx}" ry="{ry}"/></svg>"#,
+            c = 0.5 * size,
+            rx = 0.4 * size,
+            ry = 0.3 * size
+        );
+        from_svg(text.as_bytes(), TOLERANCE)
+    };
+    near(of(0.01).unwrap().area(), 0.12 * PI * 1e-4, 1e-3);
+    for size in [1e-4, 1e-6] {
+        let error = of(size).unwrap_err();
+        assert!(matches!(error, SvgError::Tiny { .. }), "{error:?}");
+        assert!(error.to_string().contains("; scale the drawing up"), "{error}");
+    }
 }
 
 #[test]
@@ -112,6 +148,16 @@ fn drawings_without_a_filled_path_say_why() {
         assert_eq!(read(reference).unwrap_err(), SvgError::OnlyReferences);
     }
     assert_eq!(read("<path d='M1 1 L9 9Z'/>").unwrap_err(), OutlineError::NoArea.into());
+    for data in ["M10 50 A nan 3 0 0 1 90 50z", "90 50 L1 1", "M5 5 L 9", "M5 5 x", "M1 1 L"] {
+        let error = read(&format!("<path d='{data}'/>")).unwrap_err();
+        assert_eq!(error, SvgError::PathData { text: data.into() });
+    }
+    for data in ["", "M1-1.5.5.5l1e-3,2E+1 3 4zm1 1a1 2 0 0150-3Z", "m 0,0 h1 2 v3 C1 1 2 2 3 3"] {
+        let hidden = read(&format!("<path fill='none' d='{data}'/>")).unwrap_err();
+        assert_eq!(hidden, SvgError::NothingFilled, "{data}");
+    }
+    let polyline = read("<polyline points='10,10 90,10 50,80'/>").unwrap_err().to_string();
+    assert!(polyline.contains("make a polyline a polygon"), "{polyline}");
 }
 
 #[test]

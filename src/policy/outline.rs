@@ -44,12 +44,25 @@ pub const OPEN_PATH_GAP: f64 = 0.01;
 /// taken for its background.
 pub const BACKGROUND_SLACK: f64 = 0.01;
 
+/// Least share of its bounding box that a background covers: its corners may be rounded, by up to a quarter of a square's
+/// side.
+pub const BACKGROUND_SHARE: f64 = 0.945;
+
+/// Least width or height of the largest shape of an SVG in its own units. The reader makes lines of arcs with radii below
+/// 1e-5: here those are corners of a hundredth of the shape, which smoothing would take away; below it ellipses become
+/// rhombi.
+pub const SVG_LEAST_SIZE: f64 = 1e-3;
+
 /// Smallest diagonal and largest coordinate of an outline, in its unit. Beyond them squares of
 /// lengths lose digits and the boolean library gives up.
 pub const OUTLINE_RANGE: (f64, f64) = (1e-9, 1e9);
 
 /// Most vertices an outline may be given; more is a scan or a mistake and is refused.
 pub const OUTLINE_VERTICES: usize = 200_000;
+
+/// Fewest rows of points whose first column may be taken for their numbers, if it counts up by one: three could be a
+/// triangle that does so by chance.
+pub const COUNTED_ROWS: usize = 4;
 
 /// Above this many vertices an outline is simplified: gears use about 2,000.
 pub const OUTLINE_VERTICES_KEPT: usize = 20_000;
@@ -89,6 +102,14 @@ pub const IMAGE_SIDE: u32 = 8;
 /// Least difference between the darkest and the lightest pixel, of 255. A blank scan with
 /// compression noise stays below it.
 pub const IMAGE_CONTRAST: u8 = 16;
+
+/// Least share of an image's pixels that is transparent, for transparency to tell the shape from the ground, and that each
+/// of two colours of a card must have: less are stray pixels.
+pub const IMAGE_CLEAR_SHARE: f64 = 0.01;
+
+/// Share of an image's pixels from which on an opaque part of two colours is a card with something drawn on it, not a shape:
+/// the corners of a square rounded by a third of its side are a tenth of it.
+pub const IMAGE_CARD_SHARE: f64 = 0.9;
 
 /// Smallest silhouette, pixels of the traced image; less is a speck.
 pub const IMAGE_SHAPE_PIXELS: usize = 24;

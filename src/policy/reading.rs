@@ -35,3 +35,6 @@ pub const CHAIN_TESTS: usize = 50_000_000;
 pub const SPLINE_DEGREE: usize = 25;
 /// Holes of a finished gear that are looked at: they only tell where its axis is.
 pub const TOOTHED_HOLES: usize = 256;
+/// How far the last row of a table of a motion may lie from one turn after the first and still repeat it, shares of the
+/// turn: radians with two decimals are off by half of it.
+pub const TABLE_TURN_WITHIN: f64 = 1e-3;

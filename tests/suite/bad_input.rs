@@ -110,13 +110,14 @@ fn svg_drawings_without_a_shape() {
         ("open.svg", "<path d='M10 10H90V90'/>", "open"),
         ("line.svg", "<path d='M10 10H90Z' fill='none' stroke='black'/>", "filled"),
         ("flat.svg", "<path d='M10 10L90 90L50 50Z'/>", "; "),
-        ("nan.svg", "<path d='M10 NaN L90 90 L50 10Z'/>", "; "),
+        ("nan.svg", "<path d='M10 NaN L90 90 L50 10Z'/>", "cannot be read; correct"),
+        ("polyline.svg", "<polyline points='10,10 90,10 50,80'/>", "a polyline a polygon"),
     ] {
         bench.refuses(&bench.file(name, svg(body)), &[word]);
     }
     bench.refuses(&bench.file("xml.svg", "<svg"), &["XML"]);
     let flat = "<svg xmlns='http://www.w3.org/2000/svg' width='0' height='-3'><rect width='2' height='2'/></svg>";
-    bench.refuses(&bench.file("size.svg", flat), &["viewBox"]);
+    bench.refuses(&bench.file("size.svg", flat), &["viewBox", "; remove width and height"]);
 }
 
 #[test]
@@ -128,6 +129,7 @@ fn outlines_that_are_no_outlines() {
     bench.refuses(&bench.file("two.json", "[[0,0],[1,1]]"), &["2 distinct points"]);
     bench.refuses(&bench.file("nan.csv", "0,0\n1,NaN\n2,2\n"), &["line 2"]);
     bench.refuses(&bench.file("nan.json", "[[0,0],[1,NaN],[2,2]]"), &["line 1"]);
+    bench.refuses(&bench.file("names.csv", "id,e,n\n1,0,0\n2,4,0\n3,4,3\n"), &["line 1", "; call"]);
     bench.refuses(&bench.file("far.csv", "0,0\n1e300,0\n0,1e300\n"), &["scale it down"]);
     bench.refuses(&bench.file("flat.csv", "0,0\n1,1\n2,2\n3,3\n"), &["no area"]);
 }

@@ -1,6 +1,6 @@
 //! Contours of SVG drawings, filled or only stroked, at their true size.
 
-use super::super::svg::flatten;
+use super::super::svg::{flatten, refuse_tiny};
 use super::super::{OutlineError, SvgError, svg_guard};
 use super::{Asked, Ring, ToothedError};
 use crate::geometry::Point;
@@ -37,6 +37,7 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
     let height = f64::from(tree.size().height());
     let mut paths = Vec::new();
     collect(tree.root(), &mut paths);
+    refuse_tiny(&paths).map_err(failed)?;
     let corners: Vec<Point> = paths
         .iter()
         .map(|p| p.abs_bounding_box())

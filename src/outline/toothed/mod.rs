@@ -150,6 +150,22 @@ pub enum ToothedError {
         /// The path as given.
         path: String,
     },
+    /// A vertex of a mesh that is not finite or too far away.
+    #[error(
+        "{path}: a vertex of the mesh lies at ({x:e}, {y:e}, {z:e}), not within {limit:e} of the origin; repair the mesh"
+    )]
+    Vertex {
+        /// The path as given.
+        path: String,
+        /// Where, mm.
+        x: f64,
+        /// Where, mm.
+        y: f64,
+        /// Where, mm.
+        z: f64,
+        /// The largest coordinate that is accepted, [`policy::OUTLINE_RANGE`].
+        limit: f64,
+    },
     /// A unit that is not a length for gears.
     #[error("{path}: its drawing unit is `{unit}`; save it in millimetres")]
     Unit {

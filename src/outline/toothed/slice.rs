@@ -95,6 +95,11 @@ fn welded(vertices: &[[f64; 3]], triangles: Vec<[usize; 3]>) -> Mesh {
 
 /// Follows the cut from edge to edge of the mesh.
 fn sliced(mesh: &Mesh, asked: &Asked<'_>) -> Result<Vec<Ring>, ToothedError> {
+    // Also those that the cut does not meet: half the thickness is wrong then.
+    let limit = policy::OUTLINE_RANGE.1;
+    if let Some(&[x, y, z]) = mesh.vertices.iter().find(|v| !v.iter().all(|c| c.abs() <= limit)) {
+        return Err(ToothedError::Vertex { path: asked.path(), x, y, z, limit });
+    }
     let heights = || mesh.triangles.iter().flatten().map(|&i| mesh.vertices[i][2]);
     let (low, high) =
         heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));

@@ -194,6 +194,33 @@ fn solids_are_cut_at_half_their_thickness() {
 }
 
 #[test]
+fn solids_with_a_vertex_at_no_place_are_refused() {
+    // Corners of the pyramid's base: the cut alone does not show them.
+    let binary = |x: f32| {
+        let mut bytes = vec![0_u8; 80];
+        bytes.extend((FACES.len() as u32).to_le_bytes());
+        for face in FACES {
+            bytes.extend([0_u8; 12]);
+            for corner in face {
+                let [_, y, z] = PYRAMID[corner];
+                let x = if corner == 0 { x } else { PYRAMID[corner][0] as f32 };
+                for value in [x, y as f32, z as f32] {
+                    bytes.extend(value.to_le_bytes());
+                }
+            }
+            bytes.extend([0_u8; 2]);
+        }
+        bytes
+    };
+    section(&read("a.stl", binary(0.0), "").unwrap());
+    for x in [f32::NAN, f32::INFINITY, 1e38, -2e9] {
+        let error = read("a.stl", binary(x), "").unwrap_err();
+        assert!(matches!(error, ToothedError::Vertex { .. }), "{error}");
+        assert!(error.to_string().contains("; repair"), "{error}");
+    }
+}
+
+#[test]
 fn a_fold_of_no_width_is_taken_out_and_it_is_said() {
     let with_fold = |tip: &str| format!("0,0\n5,0\n5,5\n2,5\n{tip}\n1.9,5\n0,5\n");
     let gear = read("a.csv", with_fold("1.8,5.000002"), "").unwrap();
