@@ -15,8 +15,7 @@ fn main() -> ExitCode {
     match cli::run(&cli) {
         Ok(outcome) => outcome.exit_code(),
         Err(error) => {
-            // One line that steers no terminal, whatever a file name or a library's message contains.
-            eprintln!("error: {}", told(&error).replace(char::is_control, " "));
+            eprintln!("error: {}", cli::plain(&told(&error)));
             ExitCode::from(cli::BAD_INPUT)
         }
     }

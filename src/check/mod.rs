@@ -74,7 +74,7 @@ impl MotionSource {
 /// How a pair is checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CheckOptions {
-    /// Distance of the axes, mm; that of the `design.json` when left out.
+    /// Distance of the axes, mm; that of the `design.json` when left out, or of both where they agree.
     pub center_distance: Option<f64>,
     /// Axes of driver and follower in the frames of their files, mm; found when left out.
     pub axes: [Option<Point>; 2],
@@ -157,7 +157,7 @@ pub fn check(
     let record = common_record(driver, follower);
     let center_distance = options
         .center_distance
-        .or(record.map(|r| r.center_distance))
+        .or(common_distance(driver, follower))
         .ok_or(CheckError::NoCenterDistance)?;
     if !(center_distance.is_finite() && center_distance > 0.0) {
         return Err(CheckError::NotPositive { name: "centre distance", value: center_distance });
@@ -190,6 +190,13 @@ pub fn check(
 /// What both gears' files tell, if they are the same file.
 fn common_record<'a>(driver: &'a Toothed, follower: &'a Toothed) -> Option<&'a PairRecord> {
     driver.record.as_ref().filter(|d| follower.record.as_ref() == Some(d))
+}
+
+/// The distance of the axes that both gears' files tell, be they of one pair or of two alike.
+fn common_distance(driver: &Toothed, follower: &Toothed) -> Option<f64> {
+    let [first, second] = [driver, follower].map(|g| g.record.as_ref().map(|r| r.center_distance));
+    let (first, second) = first.zip(second)?;
+    ((first - second).abs() <= policy::DISTANCES_AGREE * first.abs()).then_some(first)
 }
 
 fn set_up(

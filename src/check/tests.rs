@@ -128,6 +128,24 @@ fn a_motion_is_read_with_heading_and_comments_in_any_separator() {
 }
 
 #[test]
+fn two_records_that_agree_tell_the_distance() {
+    let recorded = |path: &str, center_distance| Toothed {
+        record: Some(PairRecord {
+            path: path.to_owned(),
+            center_distance,
+            teeth: None,
+            driver_angle: Vec::new(),
+            follower_angle: Vec::new(),
+        }),
+        ..gear(waves(24, 0.0, 0, 0), &[])
+    };
+    let [a, b, c] = [recorded("a", 48.0), recorded("b", 48.0), recorded("c", 50.0)];
+    assert_eq!(common_distance(&a, &b), Some(48.0));
+    assert_eq!(common_distance(&a, &c), None);
+    assert_eq!(common_distance(&a, &gear(waves(24, 0.0, 0, 0), &[])), None);
+}
+
+#[test]
 fn gears_out_of_reach_and_numbers_that_are_none_are_refused() {
     let wave = gear(waves(24, 0.0, 0, 0), &[]);
     let at = |center_distance| {

@@ -12,7 +12,7 @@ use centrode::policy;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 
 use super::outfit::OutfitArgs;
-use super::units;
+use super::{files, units};
 
 /// Turns two drawings into a pair of gears that mesh.
 #[derive(Debug, Parser)]
@@ -88,7 +88,7 @@ pub(crate) struct GalleryArgs {
     /// The same, separated by commas
     #[arg(long, value_name = "SHAPES", value_delimiter = ',', value_hint = ValueHint::FilePath)]
     pub(crate) shapes: Vec<String>,
-    /// A file that lists pairs, one on a line: DRIVER FOLLOWER, and K where it differs; paths seen from the file
+    /// A file that lists pairs, one on a line: DRIVER FOLLOWER, and K where it differs; paths seen from the file, in quotes where they have blanks
     #[arg(long, value_name = "FILE")]
     pub(crate) pairs: Option<PathBuf>,
     /// Pair every shape with every other in both roles
@@ -176,8 +176,8 @@ pub(crate) struct ExportArgs {
     /// Also write the turning gears as moving pictures, turning.gif and turning.svg
     #[arg(long)]
     pub(crate) animate: bool,
-    /// Greatest distance of the curves in STEP, DXF and laser.svg from the outline's vertices
-    #[arg(long, default_value = "0.002mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    /// Greatest distance of the curves in STEP, DXF and laser.svg from the outline's vertices, 0.00001 to 0.05 mm
+    #[arg(long, default_value = "0.002mm", value_name = "LENGTH", value_parser = files::curve_tolerance, allow_hyphen_values = true)]
     pub(crate) curve_tolerance: f64,
     /// DXF with straight segments only, for programs that do not read arcs
     #[arg(long)]
@@ -185,8 +185,8 @@ pub(crate) struct ExportArgs {
     /// DXF in the dialect of AutoCAD R12, for old machines
     #[arg(long)]
     pub(crate) dxf_r12: bool,
-    /// Width that the laser burns away: in laser.svg parts grow and bores shrink by half of it
-    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
+    /// Width that the laser burns away, up to 5 mm: in laser.svg parts grow and bores shrink by half of it
+    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = files::kerf, allow_hyphen_values = true)]
     pub(crate) kerf: f64,
 }
 
@@ -210,7 +210,7 @@ pub(crate) struct CheckArgs {
     /// Outline of the follower, likewise; from a design.json the follower is taken
     #[arg(value_name = "FOLLOWER", value_hint = ValueHint::FilePath)]
     pub(crate) follower: String,
-    /// Distance between the axes [default: that of the design.json]
+    /// Distance between the axes [default: that of the design.json, or of both where they agree]
     #[arg(short = 'L', long, value_name = "LENGTH", value_parser = units::center_distance, allow_hyphen_values = true)]
     pub(crate) center_distance: Option<f64>,
     /// An even motion: turns of the driver for one turn of the follower
@@ -391,7 +391,7 @@ pub(crate) struct RunArgs {
     #[arg(long, default_value_t = policy::DEFAULT_FRICTION, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) friction: f64,
     /// What the gears are made of: pla, petg, abs, nylon, pom, resin, plywood, acrylic, aluminium, steel
-    #[arg(long, default_value = "pla", value_name = "NAME", value_parser = units::material)]
+    #[arg(long, default_value = "pla", value_name = "NAME", value_parser = units::material, conflicts_with = "density")]
     pub(crate) material: f64,
     /// Density instead of a material, kg/m^3
     #[arg(long, value_name = "DENSITY", value_parser = units::positive, allow_hyphen_values = true)]

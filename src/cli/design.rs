@@ -7,6 +7,7 @@ use centrode::fit::{FitOptions, Fixed, Limits, Ratio, Search};
 
 use super::Outcome;
 use super::args::{DesignArgs, SearchArg};
+use super::files::Inputs;
 use super::progress::Progress;
 
 pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
@@ -15,9 +16,13 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::new();
     progress.doing("reading the shapes");
     let (driver, follower) = (args.shape.read(&args.driver)?, args.shape.read(&args.follower)?);
+    let paths = [args.driver.as_str(), &args.follower];
+    args.shape.warn_of_no_image(paths, &progress);
+    let inputs = Inputs { paths: &paths, what: "drawing" };
+    args.pair.making().check_place(inputs)?;
     progress.doing(format!("fitting {} to {}", driver.name, follower.name));
     let made = design(&driver, &follower, &options)?;
-    args.pair.making().deliver(&made, &progress, start)
+    args.pair.making().deliver(&made, inputs, &progress, start)
 }
 
 pub(super) fn options(args: &DesignArgs) -> anyhow::Result<DesignOptions> {

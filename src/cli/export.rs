@@ -2,7 +2,7 @@
 
 use anyhow::bail;
 use centrode::design::SavedDesign;
-use centrode::export::{Format, Parts, Staging};
+use centrode::export::{Format, Parts, Staging, check_folder};
 use centrode::solid::assembly_solids;
 
 use super::Outcome;
@@ -16,7 +16,6 @@ pub(crate) fn run(args: &ExportCommand) -> anyhow::Result<Outcome> {
         );
     }
     let assembly = SavedDesign::read(&args.design)?.assembly();
-    let meshes = assembly_solids(&assembly)?;
     let folder = match &args.output {
         Some(folder) => folder.clone(),
         None if args.design.is_dir() => args.design.clone(),
@@ -24,6 +23,8 @@ pub(crate) fn run(args: &ExportCommand) -> anyhow::Result<Outcome> {
     };
     // A bare file name has an empty parent.
     let folder = if folder.as_os_str().is_empty() { ".".into() } else { folder };
+    check_folder(&folder)?;
+    let meshes = assembly_solids(&assembly)?;
     let staging = Staging::new(&folder)?;
     let parts = Parts { assembly: &assembly, meshes: &meshes };
     let files = write_parts(staging.path(), parts, &args.formats)

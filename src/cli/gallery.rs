@@ -7,7 +7,9 @@ use std::sync::Mutex;
 
 use anyhow::{Context, anyhow, bail};
 use centrode::design::{Design, DesignOptions, RECORD_NAME, Record, design};
-use centrode::export::{Format, Parts, prepare_folder, write_atomically, write_json};
+use centrode::export::{
+    Format, Parts, check_folder, check_inputs, prepare_folder, write_atomically, write_json,
+};
 use centrode::fit::{Ratio, fit};
 use centrode::gallery::{
     Figures, Job, Row, Thumbnail, all_pairs, gallery_html, sorted, to_csv, to_json, told_apart,
@@ -24,12 +26,15 @@ use rayon::prelude::*;
 use super::args::{Cli, Command, DesignArgs, GalleryArgs, GalleryStep, MergeArgs};
 use super::files::{write_parts, write_text};
 use super::gallery_shapes::{Gathered, gather};
-use super::progress::Bar;
+use super::progress::{Bar, Progress};
 use super::scene::given_settings;
 use super::{Outcome, report};
 
 /// The record of a pair for the gallery; a folder that has one is complete.
 const ROW: &str = "row.json";
+
+/// The tables and the page of all pairs.
+const TABLES: [&str; 3] = ["gallery.csv", "gallery.json", "index.html"];
 
 pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outcome> {
     if let Some(GalleryStep::Merge(merge)) = &args.step {
@@ -47,7 +52,8 @@ pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outc
         ..LoadOptions::default()
     };
     let from: Vec<&str> = args.from.iter().chain(&args.shapes).map(String::as_str).collect();
-    let Gathered { shapes, listed, complaints } = gather(&from, args.pairs.as_deref(), &reading)?;
+    let Gathered { shapes, listed, complaints, sources } =
+        gather(&from, args.pairs.as_deref(), &reading)?;
     let mut jobs = if from.is_empty() {
         Vec::new()
     } else {
@@ -86,6 +92,22 @@ pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outc
         .filter(|(i, _)| args.shard.is_none_or(|s| s.has(*i)))
         .map(|(_, job)| job)
         .collect();
+    let progress = Progress::new();
+    args.shape.warn_of_no_image(sources.iter().map(String::as_str), &progress);
+    progress.done();
+    check_folder(output)?;
+    let mut inputs: Vec<&Path> = sources.iter().map(Path::new).collect();
+    inputs.extend(args.pairs.as_deref());
+    check_inputs(&inputs, "file", output, &TABLES)?;
+    inputs.retain(|input| lies_in(input, output));
+    let own: Vec<&str> = if args.formats.export.is_empty() {
+        vec![ROW, RECORD_NAME, "pair.svg"]
+    } else {
+        args.formats.names_of_a_pair().into_iter().chain([ROW]).collect()
+    };
+    for job in mine.iter().filter(|_| !inputs.is_empty()) {
+        check_inputs(&inputs, "file", &output.join(job.folder(&names)), &own)?;
+    }
     prepare_folder(output)?;
     let maker = Maker { args, base, shapes: &shapes, names: &names, output };
     let bar = Bar::new(mine.len() as u64);
@@ -112,6 +134,7 @@ pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outc
 
 /// `centrode gallery merge`.
 fn join(args: &MergeArgs) -> anyhow::Result<Outcome> {
+    check_folder(&args.output)?;
     let mut rows: Vec<Row> = Vec::new();
     let mut folders: Vec<(PathBuf, String)> = Vec::new();
     for part in &args.parts {
@@ -162,6 +185,13 @@ fn join(args: &MergeArgs) -> anyhow::Result<Outcome> {
         }
     }
     finish(&args.output, rows, false)
+}
+
+fn lies_in(file: &Path, folder: &Path) -> bool {
+    match (file.canonicalize(), folder.canonicalize()) {
+        (Ok(file), Ok(folder)) => file.starts_with(folder),
+        _ => false,
+    }
 }
 
 fn same_folder(a: &Path, b: &Path) -> bool {

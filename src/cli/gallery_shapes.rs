@@ -19,6 +19,8 @@ pub(crate) struct Gathered {
     pub(crate) shapes: Vec<Shape>,
     pub(crate) listed: Option<Listed>,
     pub(crate) complaints: Vec<String>,
+    /// Every file that was read, or could not be, and names of built-in shapes.
+    pub(crate) sources: Vec<String>,
 }
 
 /// Pairs of a list; their shapes come after all others.
@@ -88,6 +90,7 @@ pub(crate) fn gather(
                     }
                 }
             }
+            sources.extend(names.iter().cloned());
             let index = |name: &String| names.iter().position(|n| n == name).and_then(|i| at[i]);
             let pairs = lines
                 .iter()
@@ -99,7 +102,7 @@ pub(crate) fn gather(
             Some(Listed { first_shape, pairs })
         }
     };
-    Ok(Gathered { shapes, listed, complaints })
+    Ok(Gathered { shapes, listed, complaints, sources })
 }
 
 fn read_all(sources: &[String], options: &LoadOptions) -> Vec<Result<Shape, String>> {
@@ -117,7 +120,11 @@ fn drawings_in(folder: &Path) -> anyhow::Result<Vec<String>> {
         .map(|e| e.path())
         .filter(|p| {
             let ending = p.extension().map(|e| e.to_string_lossy().to_lowercase());
-            p.is_file() && ending.is_some_and(|e| DRAWINGS.contains(&e.as_str()))
+            let hidden = p.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
+            p.is_file()
+                && !hidden
+                && !is_own_table(p)
+                && ending.is_some_and(|e| DRAWINGS.contains(&e.as_str()))
         })
         .collect();
     files.sort();
@@ -129,6 +136,31 @@ fn drawings_in(folder: &Path) -> anyhow::Result<Vec<String>> {
         );
     }
     Ok(files.into_iter().map(|p| p.to_string_lossy().into_owned()).collect())
+}
+
+/// Whether it is a table that an earlier gallery left in this folder, beside its page.
+fn is_own_table(path: &Path) -> bool {
+    let tables = ["gallery.csv", "gallery.json"];
+    path.file_name().is_some_and(|n| tables.iter().any(|t| n == *t))
+        && tables.iter().chain(&["index.html"]).all(|n| path.with_file_name(n).is_file())
+}
+
+/// The words of a line up to a `#`; what is in quotes is one word. None where a quote is left open.
+fn words_of(line: &str) -> Option<Vec<String>> {
+    let mut words = Vec::new();
+    let mut rest = line;
+    loop {
+        rest = rest.trim_start_matches([' ', '\t', ',', ';']);
+        if rest.is_empty() || rest.starts_with('#') {
+            return Some(words);
+        }
+        let (word, after) = match rest.strip_prefix('"') {
+            Some(quoted) => quoted.split_once('"')?,
+            None => rest.split_at(rest.find([' ', '\t', ',', ';', '#']).unwrap_or(rest.len())),
+        };
+        words.push(word.to_owned());
+        rest = after;
+    }
 }
 
 /// Drivers, followers and ratios of a list; shapes that are files beside it are named from here.
@@ -144,9 +176,10 @@ fn lines_of(path: &Path) -> anyhow::Result<Vec<(String, String, Option<Ratio>)>>
     };
     let mut lines = Vec::new();
     for (i, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or_default();
-        let words: Vec<&str> =
-            line.split([' ', '\t', ',', ';']).filter(|w| !w.is_empty()).collect();
+        let Some(words) = words_of(line) else {
+            bail!("{}: line {} has an open quote; close it", path.display(), i + 1);
+        };
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let ratio = |k: &str| {
             k.parse::<Ratio>().with_context(|| format!("{}: line {}", path.display(), i + 1))
         };
@@ -164,4 +197,19 @@ fn lines_of(path: &Path) -> anyhow::Result<Vec<(String, String, Option<Ratio>)>>
         }
     }
     Ok(lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_with_blanks_stand_in_quotes() {
+        let words = |line| words_of(line).unwrap_or_default();
+        assert_eq!(words("a.svg, b 2 # c"), ["a.svg", "b", "2"]);
+        assert_eq!(words(" \"a b.svg\" a.svg 2"), ["a b.svg", "a.svg", "2"]);
+        assert_eq!(words("\"a #1, b\";c#d"), ["a #1, b", "c"]);
+        assert!(words("# all").is_empty() && words(" ,").is_empty());
+        assert_eq!(words_of("\"a b.svg a.svg"), None);
+    }
 }

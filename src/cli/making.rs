@@ -1,12 +1,16 @@
 //! What all commands share that make a pair: options of teeth and size, and the way from a design to a folder.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use centrode::design::{
     BoreChoice, Design, DesignOptions, RECORD_NAME, Record, Scale, TeethStyle, ToothCount,
 };
-use centrode::export::{ExportError, Format, Parts, Staging, write_json};
+use centrode::export::{
+    ExportError, Format, Parts, Staging, check_folder, check_inputs, write_json,
+};
 use centrode::fit::Ratio;
 use centrode::outline::{LoadOptions, Shape, Smoothing, load};
 use centrode::report::report_html;
@@ -16,10 +20,14 @@ use centrode::strength::Load;
 use super::args::{
     CarverArg, ExportArgs, PairArgs, RunArgs, ShapeArgs, SizeArgs, StyleArg, TeethArgs,
 };
-use super::files::{write_parts, write_text};
+use super::files::{Inputs, write_parts, write_text};
 use super::outfit::OutfitArgs;
 use super::progress::Progress;
+use super::proof::TABLES;
 use super::{Outcome, report};
+
+/// Bytes at the head of a file that tell an image from other drawings.
+const IMAGE_HEAD: u64 = 64;
 
 /// The options of a command that makes a pair, wherever the pair comes from.
 #[derive(Clone, Copy, Debug)]
@@ -89,10 +97,21 @@ impl Making<'_> {
         }
     }
 
+    /// Whether the files have a place and leave the run's own inputs alone: told before the pair is made.
+    pub(crate) fn check_place(&self, inputs: Inputs<'_>) -> Result<(), ExportError> {
+        check_folder(self.output)?;
+        let mut names = self.formats.names_of_a_pair();
+        if !self.no_simulate {
+            names.extend(TABLES);
+        }
+        check_inputs(inputs.paths, inputs.what, self.output, &names)
+    }
+
     /// Writes a finished design and says what it is; an unsound one is refused unless forced.
     pub(crate) fn deliver(
         &self,
         made: &Design,
+        inputs: Inputs<'_>,
         progress: &Progress,
         start: Instant,
     ) -> anyhow::Result<Outcome> {
@@ -104,7 +123,7 @@ impl Making<'_> {
         progress.doing("making solids");
         let meshes = assembly_solids(&made.assembly)?;
         progress.doing("writing files");
-        let files = self.write(made, &meshes)?;
+        let files = self.write(made, &meshes, inputs)?;
         progress.done();
         report::summary(made, &files, self.output, start.elapsed(), self.json)?;
         Ok(if made.is_sound() { Outcome::Good } else { Outcome::NotSound })
@@ -123,11 +142,16 @@ impl Making<'_> {
         )
     }
 
-    fn write(&self, made: &Design, meshes: &[Mesh]) -> anyhow::Result<Vec<PathBuf>> {
+    fn write(
+        &self,
+        made: &Design,
+        meshes: &[Mesh],
+        inputs: Inputs<'_>,
+    ) -> anyhow::Result<Vec<PathBuf>> {
         let staging = Staging::new(self.output)?;
         let files = write_into(staging.path(), made, meshes, self.formats)
             .map_err(|error| staging.told_of_the_final_place(error))?;
-        Ok(staging.publish(&files)?)
+        Ok(staging.publish_beside(&files, inputs.paths, inputs.what)?)
     }
 }
 
@@ -163,4 +187,21 @@ impl ShapeArgs {
         };
         Ok(load(source, &options)?)
     }
+
+    /// Says so when a threshold was given for drawings of which none is an image.
+    pub(crate) fn warn_of_no_image<'a>(
+        &self,
+        sources: impl IntoIterator<Item = &'a str>,
+        progress: &Progress,
+    ) {
+        if self.threshold.is_some() && !sources.into_iter().any(is_image) {
+            progress.warn("--threshold changes nothing, for no drawing is an image");
+        }
+    }
+}
+
+fn is_image(source: &str) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(source).and_then(|f| f.take(IMAGE_HEAD).read_to_end(&mut head));
+    read.is_ok() && image::guess_format(&head).is_ok()
 }

@@ -8,6 +8,7 @@ use centrode::fit::{FitOptions, Fixed, Limits};
 
 use super::Outcome;
 use super::args::MateArgs;
+use super::files::Inputs;
 use super::progress::Progress;
 
 pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
@@ -16,6 +17,10 @@ pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
     progress.doing("reading the shape");
     let shape = args.reading.read(&args.shape)?;
     let making = args.pair.making();
+    let paths = [args.shape.as_str()];
+    args.reading.warn_of_no_image(paths, &progress);
+    let inputs = Inputs { paths: &paths, what: "drawing" };
+    making.check_place(inputs)?;
     let options = making.options(args.ratio);
     let options = DesignOptions {
         fit: FitOptions {
@@ -38,5 +43,5 @@ pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
             shape.name, low.x, low.y, high.x, high.y
         )
     })?;
-    making.deliver(&made, &progress, start)
+    making.deliver(&made, inputs, &progress, start)
 }

@@ -24,6 +24,7 @@ mod version;
 
 pub(crate) use args::Cli;
 use args::Command;
+use centrode::policy;
 use clap::error::ErrorKind;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -65,6 +66,9 @@ pub(crate) fn run(cli: &Cli) -> anyhow::Result<Outcome> {
 
 /// Carries out a command line; `words` is what was parsed into `cli`.
 fn carry_out(cli: &Cli, words: &[OsString]) -> anyhow::Result<Outcome> {
+    if let Some(path) = &cli.save_scene {
+        scene::check_save(path, words)?;
+    }
     let outcome = match &cli.command {
         Command::Design(args) => design::run(args),
         Command::Motion(args) => motion::run(args),
@@ -91,9 +95,61 @@ pub(crate) fn refused(error: &clap::Error) -> ExitCode {
         // A closed pipe is no reason to fail harder.
         let _ = error.print();
     } else {
-        eprintln!("{}", in_one_line(&error.to_string()).replace(char::is_control, " "));
+        eprintln!("{}", plain(&in_one_line(&error.to_string())));
     }
     if error.use_stderr() { ExitCode::from(BAD_INPUT) } else { ExitCode::SUCCESS }
+}
+
+/// One line that steers no terminal and echoes nothing at length, whatever a file name, an option or a library's message
+/// contains.
+pub(crate) fn plain(said: &str) -> String {
+    let line = said.replace(char::is_control, " ");
+    let words: Vec<String> = line.split(' ').map(|word| short_word(&short_numbers(word))).collect();
+    let line = words.join(" ");
+    let count = line.chars().count();
+    if count <= policy::MESSAGE_LENGTH {
+        return line;
+    }
+    // The beginning names the place, the end the remedy.
+    let head: String = line.chars().take(policy::MESSAGE_LENGTH * 2 / 3).collect();
+    let tail: String = line.chars().skip(count - policy::MESSAGE_LENGTH / 3).collect();
+    format!("{head} ... {tail}")
+}
+
+/// A word that is no path, without its middle where it is very long.
+fn short_word(word: &str) -> String {
+    let count = word.chars().count();
+    let kept = policy::WORD_LENGTH / 2;
+    if count <= policy::WORD_LENGTH || word.contains(['/', '\\']) {
+        return word.to_owned();
+    }
+    let head: String = word.chars().take(kept).collect();
+    let tail: String = word.chars().skip(count - kept).collect();
+    format!("{head}...{tail}")
+}
+
+/// The word with numbers of very many digits in powers of ten.
+fn short_numbers(word: &str) -> String {
+    let mut made = String::with_capacity(word.len());
+    let mut rest = word;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (before, from) = rest.split_at(start);
+        made.push_str(before);
+        let digits = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+        let mut end = digits(from);
+        if let Some(places) = from[end..].strip_prefix('.') {
+            end += 1 + digits(places);
+        }
+        let (number, after) = from.split_at(end);
+        match number.parse::<f64>() {
+            Ok(value) if number.len() > policy::NUMBER_LENGTH => {
+                made.push_str(&format!("{value:.3e}"));
+            }
+            _ => made.push_str(number),
+        }
+        rest = after;
+    }
+    made + rest
 }
 
 /// What clap says on several lines, without the usage, on one.
@@ -109,6 +165,21 @@ fn in_one_line(said: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn messages_echo_nothing_at_length() {
+        let far = format!("error: the centre (-{:.4}, 0.0000) is outside; move it", 1e308);
+        assert_eq!(plain(&far), "error: the centre (-1.000e308, 0.0000) is outside; move it");
+        let near = format!("no length '{:.320}'; give more", 1e-300);
+        assert_eq!(plain(&near), "no length '1.000e-300'; give more");
+        let kept = "a\tb/20261122193922.svg: 12.5 and 100000000000000000000.; v1.2.3.";
+        assert_eq!(plain(kept), kept.replace('\t', " "));
+        let letters = plain(&format!("no font has '{}é'; choose others", "x".repeat(3000)));
+        assert!(letters.len() < 200 && letters.ends_with("xé'; choose others"), "{letters}");
+        let many = plain(&format!("here: {}; choose others", "word ".repeat(3000)));
+        assert!(many.chars().count() < policy::MESSAGE_LENGTH + 10);
+        assert!(many.starts_with("here: word") && many.ends_with("; choose others"), "{many}");
+    }
 
     #[test]
     fn usage_errors_fit_one_line() {

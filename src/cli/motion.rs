@@ -13,6 +13,7 @@ use centrode::policy;
 
 use super::Outcome;
 use super::args::MotionArgs;
+use super::files::Inputs;
 use super::progress::Progress;
 
 /// Extensions of tables.
@@ -23,11 +24,15 @@ pub(crate) fn run(args: &MotionArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::new();
     let (transmission, names) = motion(args)?;
     let making = args.pair.making();
+    let said = args.law.iter().chain(&args.centrode).map(String::as_str);
+    let paths: Vec<&str> = said.filter(|text| is_table(Path::new(text))).collect();
+    let inputs = Inputs { paths: &paths, what: "table" };
+    making.check_place(inputs)?;
     let sector = segment(args).filter(|_| args.sector);
     let options = DesignOptions { sector, ..making.options(args.ratio) };
     progress.doing("laying teeth on the pitch curves");
     let made = from_motion(transmission, names, [None, None], &options)?;
-    making.deliver(&made, &progress, start)
+    making.deliver(&made, inputs, &progress, start)
 }
 
 fn segment(args: &MotionArgs) -> Option<Segment> {
@@ -51,8 +56,7 @@ fn motion(args: &MotionArgs) -> anyhow::Result<(Transmission, [String; 2])> {
     let options = with(quantity);
     let segment = segment(args);
     let path = Path::new(text);
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    if TABLES.contains(&extension.as_str()) {
+    if is_table(path) {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let made = Table::parse(&read(path)?, quantity)
             .and_then(|table| match segment {
@@ -68,6 +72,11 @@ fn motion(args: &MotionArgs) -> anyhow::Result<(Transmission, [String; 2])> {
         None => from_function(|phi| formula.at(phi), &options)?,
     };
     Ok((made, [format!("{sign} = {}", text.trim()), "its follower".to_owned()]))
+}
+
+fn is_table(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    TABLES.contains(&extension.as_str())
 }
 
 /// A table's bytes, and at most one more than is taken.

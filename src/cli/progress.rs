@@ -44,6 +44,13 @@ impl Progress {
         self.0.set_message(what.into());
     }
 
+    /// Says something that stays, unless only errors may be said.
+    pub(crate) fn warn(&self, what: &str) {
+        if !is_silent() {
+            self.0.suspend(|| eprintln!("warning: {what}"));
+        }
+    }
+
     /// Takes the line away.
     pub(crate) fn done(&self) {
         self.0.finish_and_clear();

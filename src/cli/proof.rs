@@ -10,6 +10,9 @@ use centrode::report::{ContactFrame, Plot, Section, contact_frames};
 
 use super::args::RunArgs;
 
+/// Tables of the measuring run and of that by motor.
+pub(crate) const TABLES: [&str; 2] = ["simulation.csv", "simulation-motor.csv"];
+
 /// Points of a curve on the page, at most.
 const PLOT_POINTS: usize = 1500;
 

@@ -4,12 +4,13 @@ use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
 
 use anyhow::{Context, anyhow, bail};
-use centrode::export::{prepare_folder, write_atomically};
+use centrode::export::{check_inputs, prepare_folder, write_atomically};
 use centrode::scene::{Key, Kind, Setting, command_of, read, write};
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, CommandFactory, Parser, ValueHint};
 
 use super::args::{Cli, SceneArgs};
+use super::files::{check_file, told_of};
 use super::{Outcome, in_one_line};
 
 /// Headings of the help and the tables of a scene that hold their options. An option under another heading stands in a table named
@@ -22,6 +23,9 @@ const NO_SCENE: [&str; 2] = ["run", "help"];
 
 /// Options that say nothing of the result.
 const LEFT_OUT: [&str; 3] = ["help", "version", "save_scene"];
+
+/// The option that names where a scene is saved.
+const SAVE: &str = "--save-scene";
 
 /// Where results of a scene go that names no folder.
 const OUTPUT: &str = "output";
@@ -126,8 +130,8 @@ fn words_of(args: &SceneArgs) -> anyhow::Result<Vec<OsString>> {
     Ok(words)
 }
 
-/// Writes the scene that makes `words` again.
-pub(crate) fn save(path: &Path, words: &[OsString]) -> anyhow::Result<()> {
+/// Whether the scene of `words` can be written: told before the work is done.
+pub(crate) fn check_save(path: &Path, words: &[OsString]) -> anyhow::Result<()> {
     let top = Cli::command();
     let matches = Cli::command().try_get_matches_from(words)?;
     let Some((name, given)) = matches.subcommand() else { bail!("there is no command to save") };
@@ -135,6 +139,28 @@ pub(crate) fn save(path: &Path, words: &[OsString]) -> anyhow::Result<()> {
     if NO_SCENE.contains(&name) {
         bail!("`centrode {name}` has no scene of its own; save that of the command it carries out");
     }
+    if let Some((step, _)) = given.subcommand() {
+        bail!("`centrode {name} {step}` has no scene; leave out {SAVE}");
+    }
+    let told = |error| told_of(SAVE, error);
+    check_file(path).map_err(told)?;
+    let mut values: Vec<String> =
+        given_settings(known, given).into_iter().flat_map(|s| s.values).collect();
+    // The gear that is meant may be named behind its file.
+    let files: Vec<String> =
+        values.iter().filter_map(|v| Some(v.rsplit_once('#')?.0.to_owned())).collect();
+    values.extend(files);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let name: Vec<_> = path.file_name().into_iter().collect();
+    check_inputs(&values, "file", folder, &name).map_err(told)
+}
+
+/// Writes the scene that makes `words` again.
+pub(crate) fn save(path: &Path, words: &[OsString]) -> anyhow::Result<()> {
+    let top = Cli::command();
+    let matches = Cli::command().try_get_matches_from(words)?;
+    let Some((name, given)) = matches.subcommand() else { bail!("there is no command to save") };
+    let Some(known) = top.find_subcommand(name) else { bail!("there is no command {name}") };
     let folder = path.parent().unwrap_or(Path::new(""));
     let settings: Vec<Setting> = given_settings(known, given)
         .into_iter()
@@ -149,10 +175,10 @@ pub(crate) fn save(path: &Path, words: &[OsString]) -> anyhow::Result<()> {
         .collect();
     let text = write(name, &keys(known), &settings);
     if !folder.as_os_str().is_empty() {
-        prepare_folder(folder)?;
+        prepare_folder(folder).map_err(|e| told_of(SAVE, e))?;
     }
-    write_atomically(path, |out| std::io::Write::write_all(out, text.as_bytes()))?;
-    Ok(())
+    write_atomically(path, |out| std::io::Write::write_all(out, text.as_bytes()))
+        .map_err(|e| told_of(SAVE, e))
 }
 
 /// What was said on the command line itself, defaults left out, in the order of the help.

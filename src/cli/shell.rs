@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use anyhow::Context;
-use centrode::export::write_atomically;
+use centrode::export::{check_folder, write_atomically};
 use clap::CommandFactory;
 use clap_mangen::Man;
 
@@ -29,14 +29,12 @@ pub(crate) fn man(args: &ManArgs) -> anyhow::Result<Outcome> {
     let Some(folder) = &args.output else {
         return print(&page(command)?);
     };
+    check_folder(folder)?;
     std::fs::create_dir_all(folder).with_context(|| {
         format!("cannot make the folder {}; give one that may be written to", folder.display())
     })?;
     let mut pages = vec![(NAME.to_owned(), command.clone())];
-    for sub in command.get_subcommands().filter(|s| s.get_name() != "help") {
-        let name = format!("{NAME}-{}", sub.get_name());
-        pages.push((name.clone(), sub.clone().display_name(name)));
-    }
+    add_pages(&command, NAME, &mut pages);
     for (name, command) in pages {
         let path = folder.join(format!("{name}.1"));
         let text = page(command)?;
@@ -46,6 +44,15 @@ pub(crate) fn man(args: &ManArgs) -> anyhow::Result<Outcome> {
         }
     }
     Ok(Outcome::Good)
+}
+
+/// Adds the commands below `command`, whose page is called `name`, and those below them.
+fn add_pages(command: &clap::Command, name: &str, pages: &mut Vec<(String, clap::Command)>) {
+    for sub in command.get_subcommands().filter(|s| s.get_name() != "help") {
+        let name = format!("{name}-{}", sub.get_name());
+        pages.push((name.clone(), sub.clone().display_name(name.clone())));
+        add_pages(sub, &name, pages);
+    }
 }
 
 fn print(bytes: &[u8]) -> anyhow::Result<Outcome> {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use anyhow::{Context, bail};
 use centrode::assembly::{Assembly, Layout, PairModel, Train, TrainError, TrainPlan};
 use centrode::design::{SavedDesign, read_train};
-use centrode::export::{ExportError, Parts, Staging, write_json};
+use centrode::export::{ExportError, Parts, Staging, check_folder, write_json};
 use centrode::meshing::{
     Drive, DynamicsOptions, TrainPlay, TrainRun, judge_train, simulate_train, train_play,
 };
@@ -86,6 +86,7 @@ pub(crate) fn run(args: &TrainArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::new();
     progress.doing("putting the gears on their axles");
     let train = assembled(args)?;
+    check_folder(&args.output)?;
     let assembly = &train.assembly;
     progress.doing("measuring the play of every mesh");
     let play = train_play(assembly, policy::TRAIN_PLAY_POSES)?;
@@ -109,13 +110,18 @@ pub(crate) fn run(args: &TrainArgs) -> anyhow::Result<Outcome> {
     progress.doing("writing files");
     let staging = Staging::new(&args.output)?;
     let files = write(&staging, &made, args)?;
-    let files = staging.publish(&files)?;
+    let files = staging.publish_beside(&files, &[&args.plan], "plan")?;
     progress.done();
     summary(&made, &files, args)?;
     Ok(if made.faults.is_empty() { Outcome::Good } else { Outcome::NotSound })
 }
 
 fn assembled(args: &TrainArgs) -> anyhow::Result<Train> {
+    if args.bend.is_some() && args.layout == LayoutArg::Straight {
+        bail!(
+            "a straight train has no bend; choose --layout zigzag, arc or ring, or leave out --bend"
+        );
+    }
     if args.plan.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
         return Ok(read_train(&args.plan)?.assemble()?);
     }

@@ -139,6 +139,7 @@ impl SavedDesign {
                 file.module
             ));
         }
+        agree(&gears, file.ratio, &file.motion)?;
         Ok(Self {
             names: file.names,
             ratio: file.ratio,
@@ -253,6 +254,26 @@ struct FileMotion {
     swings: bool,
 }
 
+/// Passes a record whose ratio, tooth counts and motion tell the same; else says which two do not.
+fn agree(gears: &[Gear; 2], ratio: f64, motion: &FileMotion) -> Result<(), String> {
+    let agrees = |other: f64| (other / ratio - 1.0).abs() <= policy::RECORD_RATIO_OFF;
+    let teeth = [0, 1].map(|i| gears[i].teeth);
+    let of_teeth = f64::from(teeth[1]) / f64::from(teeth[0]);
+    if !agrees(of_teeth) {
+        return Err(format!(
+            "its ratio is {ratio:e}, that of its {} and {} teeth {of_teeth:e}",
+            teeth[0], teeth[1]
+        ));
+    }
+    let last = |angles: &[f64]| angles.last().copied().unwrap_or_default();
+    let turned = last(&motion.driver_angle) / last(&motion.follower_angle);
+    // Gears that swing over a part of a turn do so at the ratio of that part.
+    if !motion.swings && !agrees(turned) {
+        return Err(format!("its ratio is {ratio:e}, that of its motion {turned:e}"));
+    }
+    Ok(())
+}
+
 fn plain_names() -> [String; 2] {
     ["driver", "follower"].map(str::to_owned)
 }
@@ -278,10 +299,15 @@ fn gear(name: &str, file: FileGear) -> Result<Gear, String> {
     }
     let input: Vec<Point> = file.input.into_iter().map(|[x, y]| Point::new(x, y)).collect();
     within_reach(&input).map_err(|far| format!("the input of its {name} {far}"))?;
+    let outline = ring("outline", file.outline)?;
+    let bore = file.bore.map(|b| ring("bore", b)).transpose()?;
+    if bore.as_ref().is_some_and(|b| !geometry::contains(b, Point::origin())) {
+        return Err(format!("the bore of its {name} is not about the axis"));
+    }
     Ok(Gear {
         name: name.to_owned(),
-        outline: ring("outline", file.outline)?,
-        bore: file.bore.map(|b| ring("bore", b)).transpose()?,
+        outline,
+        bore,
         pitch_curve: ring("pitch curve", file.pitch_curve)?,
         input,
         teeth: file.teeth,
@@ -327,7 +353,7 @@ mod tests {
         };
         serde_json::json!({"units": "mm", "ratio": 1.0, "center_distance": 5.0, "module": 1.0,
             "driver": gear(), "follower": gear(), "settings": {"repair": true},
-            "motion": {"driver_angle": [0.0, 1.0], "follower_angle": [0.0, 0.5]}})
+            "motion": {"driver_angle": [0.0, 1.0], "follower_angle": [0.0, 1.0]}})
     }
 
     #[test]
@@ -351,7 +377,7 @@ mod tests {
         let read = SavedDesign::from_json(&sample().to_string()).unwrap();
         assert_eq!(read.thickness, policy::DEFAULT_THICKNESS);
         assert_eq!(read.names, ["driver", "follower"]);
-        assert_eq!(read.assembly().gears[1].angle, [0.0, -0.5]);
+        assert_eq!(read.assembly().gears[1].angle, [0.0, -1.0]);
     }
 
     #[test]
@@ -369,6 +395,32 @@ mod tests {
         assert!(broken("/motion/driver_angle", serde_json::json!([0.0, -1.0])).contains("rise"));
         assert!(broken("/motion/driver_angle", serde_json::json!([0.0])).contains("length"));
         assert!(SavedDesign::from_json("{").is_err());
+    }
+
+    #[test]
+    fn contradictions_are_named() {
+        let read = |changes: &[(&str, Value)]| {
+            let mut record = sample();
+            for (path, value) in changes {
+                *record.pointer_mut(path).unwrap() = value.clone();
+            }
+            SavedDesign::from_json(&record.to_string())
+        };
+        let half = || ("/motion/follower_angle", serde_json::json!([0.0, 0.5]));
+        assert!(read(&[("/ratio", 2.0.into())]).unwrap_err().contains("4 and 4 teeth"));
+        assert!(read(&[("/follower/teeth", 8.into())]).unwrap_err().contains("4 and 8 teeth"));
+        assert!(read(&[half()]).unwrap_err().contains("that of its motion 2e0"));
+        let two = [("/ratio", 2.0.into()), ("/follower/teeth", 8.into()), half()];
+        assert_eq!(read(&two).unwrap().ratio, 2.0);
+        let mut record = sample();
+        record["motion"]["follower_angle"] = serde_json::json!([0.0, 0.5]);
+        record["motion"]["swings"] = true.into();
+        assert!(SavedDesign::from_json(&record.to_string()).unwrap().swings);
+        let beside = serde_json::json!([[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]]);
+        let about = serde_json::json!([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]);
+        let error = read(&[("/follower/bore", beside)]).unwrap_err();
+        assert!(error.contains("the bore of its follower is not about the axis"), "{error}");
+        assert!(read(&[("/follower/bore", about)]).is_ok());
     }
 
     #[test]

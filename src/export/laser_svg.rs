@@ -113,7 +113,7 @@ impl LaserSvg {
     fn work(&self, gear: &Gear) -> Result<Work, String> {
         if !(0.0..=policy::LARGEST_KERF).contains(&self.kerf) {
             return Err(format!(
-                "a kerf of {} mm is out of range, give 0 to {} mm",
+                "a kerf of {:e} mm is out of range, give 0 to {} mm",
                 self.kerf,
                 policy::LARGEST_KERF
             ));

@@ -24,7 +24,7 @@ mod threemf;
 mod xml;
 
 pub use animation::Animation;
-pub use atomic::{ExportError, prepare_folder, write_atomically};
+pub use atomic::{ExportError, check_folder, check_inputs, prepare_folder, write_atomically};
 pub use dxf::Dxf;
 pub use format::{Format, UnknownFormat};
 pub use glb::Glb;

@@ -1,5 +1,6 @@
 //! A folder whose files appear all together or not at all.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -23,6 +24,7 @@ impl Staging {
     /// # Errors
     /// [`ExportError`], naming the output folder.
     pub fn new(folder: &Path) -> Result<Self, ExportError> {
+        super::check_folder(folder)?;
         let missing = |p: &&Path| !p.as_os_str().is_empty() && p.symlink_metadata().is_err();
         let made = folder.ancestors().take_while(missing).map(Path::to_owned).collect();
         let hidden = folder.join(format!("{HIDDEN}{}{PART}", std::process::id()));
@@ -44,6 +46,8 @@ impl Staging {
     #[must_use]
     pub fn told_of_the_final_place(&self, mut error: ExportError) -> ExportError {
         let (ExportError::NotWritable { path, .. }
+        | ExportError::NotAFolder { path, .. }
+        | ExportError::Overwrites { path, .. }
         | ExportError::DiskFull { path, .. }
         | ExportError::Encode { path, .. }) = &mut error;
         if let Ok(name) = path.strip_prefix(&self.hidden) {
@@ -57,7 +61,22 @@ impl Staging {
     ///
     /// # Errors
     /// [`ExportError`], naming the file; files moved before it stay.
-    pub fn publish(mut self, files: &[PathBuf]) -> Result<Vec<PathBuf>, ExportError> {
+    pub fn publish(self, files: &[PathBuf]) -> Result<Vec<PathBuf>, ExportError> {
+        self.publish_beside::<&Path>(files, &[], "file")
+    }
+
+    /// The same, unless one of `inputs` would be overwritten; `what` says what they are.
+    ///
+    /// # Errors
+    /// [`ExportError::Overwrites`] before anything is moved, else as [`Staging::publish`].
+    pub fn publish_beside<P: AsRef<Path>>(
+        mut self,
+        files: &[PathBuf],
+        inputs: &[P],
+        what: &'static str,
+    ) -> Result<Vec<PathBuf>, ExportError> {
+        let names: Vec<&OsStr> = files.iter().filter_map(|f| f.file_name()).collect();
+        super::check_inputs(inputs, what, &self.folder, &names)?;
         let mut published = Vec::with_capacity(files.len());
         for file in files {
             let target = self.folder.join(file.file_name().unwrap_or_default());
@@ -131,12 +150,28 @@ mod tests {
     }
 
     #[test]
+    fn an_input_is_not_replaced() {
+        let top = tempfile::tempdir().unwrap();
+        let drawing = top.path().join("b.svg");
+        fs::write(&drawing, "drawn").unwrap();
+        let staging = Staging::new(top.path()).unwrap();
+        let written = [staging.path().join("a.svg"), staging.path().join("b.svg")];
+        for file in &written {
+            fs::write(file, "new").unwrap();
+        }
+        let error = staging.publish_beside(&written, &[&drawing], "drawing").unwrap_err();
+        assert!(matches!(error, ExportError::Overwrites { .. }), "{error}");
+        assert_eq!(fs::read_to_string(&drawing).unwrap(), "drawn");
+        assert_eq!(fs::read_dir(top.path()).unwrap().count(), 1);
+    }
+
+    #[test]
     fn a_path_below_a_file_is_refused_and_the_file_kept() {
         let top = tempfile::tempdir().unwrap();
         let plain = top.path().join("plain");
         fs::write(&plain, "kept").unwrap();
         let error = Staging::new(&plain.join("out")).unwrap_err();
-        assert!(matches!(error, ExportError::NotWritable { .. }), "{error}");
+        assert!(matches!(error, ExportError::NotAFolder { .. }), "{error}");
         assert_eq!(fs::read_to_string(&plain).unwrap(), "kept");
     }
 }

@@ -72,3 +72,5 @@ pub const MOTION_CLOSES: f64 = 2e-3;
 pub const CHECK_CYCLES: f64 = 1.0;
 /// Intervals of the motion in a report.
 pub const CHECK_SAMPLES: usize = 256;
+/// How far two recorded distances of axes may differ, relative, and count as one: rounding of written decimals.
+pub const DISTANCES_AGREE: f64 = 1e-9;

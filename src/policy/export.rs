@@ -47,6 +47,9 @@ pub const MJCF_TOLERANCE: f64 = 1e-10;
 pub const EXPORT_TOLERANCE: f64 = 0.002;
 /// Smallest tolerance that may be asked for, mm; below it rounding of six written decimals shows.
 pub const LEAST_EXPORT_TOLERANCE: f64 = 1e-5;
+/// Largest tolerance that may be asked for, mm: half of the usual clearance, for curves stray from the middle of a chord
+/// by up to twice their tolerance, and no flank may reach beyond the room that was left for it.
+pub const LARGEST_EXPORT_TOLERANCE: f64 = 0.05;
 /// Vertices that turn by more than this (radians, 17 degrees) are true corners; sampled curves, also
 /// those that clearance has rounded ([`super::INSET_ROUND_FROM`]), turn less.
 pub const CORNER_TURN: f64 = 0.3;

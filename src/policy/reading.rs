@@ -17,6 +17,8 @@ pub const RECORD_LEAST_STEP: f64 = 1e-10;
 /// Factor between a saved module and that of its driver's teeth, at most: the work of contact analysis grows as the
 /// module falls.
 pub const RECORD_MODULE_OFF: f64 = 10.0;
+/// How far ratio, tooth counts and motion of a record may disagree, relative: rounding of written decimals.
+pub const RECORD_RATIO_OFF: f64 = 1e-5;
 /// Longest name in a record, bytes: those of files end at 255.
 pub const RECORD_NAME_BYTES: usize = 1024;
 /// Most rings of one saved part, holes or marks: pairs of them are compared.
@@ -38,3 +40,9 @@ pub const TOOTHED_HOLES: usize = 256;
 /// How far the last row of a table of a motion may lie from one turn after the first and still repeat it, shares of the
 /// turn: radians with two decimals are off by half of it.
 pub const TABLE_TURN_WITHIN: f64 = 1e-3;
+/// Characters of a message on the terminal at most: ten lines; what is longer loses its middle.
+pub const MESSAGE_LENGTH: usize = 800;
+/// Characters of a word in a message at most, where it is no path: a line and a half.
+pub const WORD_LENGTH: usize = 120;
+/// Characters of a number in a message at most before it is written in powers of ten: no honest one comes near.
+pub const NUMBER_LENGTH: usize = 40;

@@ -300,11 +300,97 @@ fn arguments_that_are_missing_or_unknown() {
 fn a_folder_that_cannot_be_made() {
     let bench = Bench::new();
     let plain = bench.file("plain", "kept");
-    for place in [plain.clone(), format!("{plain}/out"), "/proc/none/out".to_owned()] {
+    let in_the_way = ["plain is a file, not a folder; choose another folder with -o"];
+    for (place, words) in [
+        (plain.clone(), &in_the_way[..]),
+        (format!("{plain}/out"), &in_the_way),
+        ("/proc/none/out".to_owned(), &["cannot write", "choose a folder"]),
+    ] {
         let said = centrode(["design", "heart", "dove", "--search", "paper", "-o", &place]);
-        one_clear_line(&said, &["cannot write", "choose a folder"]);
+        one_clear_line(&said, words);
     }
+    let sheet = centrode(["shapes", "--sheet", &format!("{plain}/all.svg")]);
+    one_clear_line(&sheet, &["not a folder; name another place with --sheet"]);
     assert_eq!(fs::read_to_string(&plain).unwrap(), "kept");
+}
+
+#[test]
+fn drawings_of_the_user_are_not_overwritten() {
+    let bench = Bench::new();
+    let drawing = centrode::outline::library::svg("ellipse").unwrap();
+    let shape = bench.file("pair.svg", drawing);
+    let folder = bench.top.path().to_string_lossy().into_owned();
+    let list = bench.file("gallery.csv", "ellipse egg\n");
+    let before = tree(bench.top.path());
+    let mate = ["mate", &shape, "--teeth", "24", "--no-simulate", "--export", "svg"];
+    let words = ["pair.svg is a drawing that this run reads", "; choose another folder with -o"];
+    one_clear_line(&centrode(mate.iter().chain(&["-o", &folder])), &words);
+    let gallery = centrode(["gallery", "--pairs", &list, "--no-teeth", "-o", &folder]);
+    one_clear_line(&gallery, &["gallery.csv is a file that this run reads", "; choose another"]);
+    let check = centrode(["check", &shape, &shape, "--save-scene", &shape]);
+    one_clear_line(&check, &["pair.svg is a file that", "; name another place with --save-scene"]);
+    assert_eq!(tree(bench.top.path()), before);
+    assert_eq!(fs::read_to_string(&shape).unwrap(), drawing);
+}
+
+#[test]
+fn what_cannot_be_saved_is_told_before_the_run() {
+    let bench = Bench::new();
+    let scene = bench.file("scene.toml", "driver = 'heart'\nfollower = 'drop'\n");
+    let save = bench.top.path().join("saved.toml").to_string_lossy().into_owned();
+    let output = bench.output().to_string_lossy().into_owned();
+    let run = centrode(["run", &scene, "-o", &output, "--save-scene", &save]);
+    one_clear_line(&run, &["`centrode run` has no scene of its own; "]);
+    let merge = centrode(["gallery", "merge", &output, "-o", &output, "--save-scene", &save]);
+    one_clear_line(&merge, &["`centrode gallery merge` has no scene; leave out --save-scene"]);
+    let below = format!("{scene}/saved.toml");
+    let shapes = centrode(["shapes", "--save-scene", &below]);
+    one_clear_line(&shapes, &["scene.toml is a file, not a folder; ", "--save-scene"]);
+    assert_eq!(tree(bench.top.path()), [Path::new(&scene)]);
+}
+
+#[test]
+fn options_of_files_have_ranges_and_do_not_contradict() {
+    let bench = Bench::new();
+    for (option, value, words) in [
+        ("--kerf", "6mm", ["--kerf", "; give 0mm to 5mm"]),
+        ("--kerf", "1e300", ["--kerf", "; give 0mm to 5mm"]),
+        ("--curve-tolerance", "5mm", ["--curve-tolerance", "; give 0.00001mm to 0.05mm"]),
+        ("--curve-tolerance", "1e-300", ["--curve-tolerance", "; give 0.00001mm to 0.05mm"]),
+    ] {
+        bench.refuses_options(&["heart", "dove", "--export", "json", option, value], &words);
+    }
+    let both = ["heart", "dove", "--material", "steel", "--density", "1000"];
+    bench.refuses_options(&both, &["--material", "cannot be used with"]);
+    let output = bench.output().to_string_lossy().into_owned();
+    let bent = centrode(["train", "no-such-pair", "--bend", "10", "-o", &output]);
+    one_clear_line(&bent, &["a straight train has no bend; ", "--layout zigzag"]);
+}
+
+#[test]
+fn no_option_is_echoed_at_length() {
+    let bench = Bench::new();
+    for arguments in [
+        vec!["heart", "dove", "--search", "paper", "--driver-axis", "1e308,0"],
+        vec!["heart", "dove", "--bore", &"9".repeat(4000)],
+        vec!["heart", &"x".repeat(4000)],
+    ] {
+        let said = bench.refuses_options(&arguments, &["; "]);
+        assert!(said.len() < 900, "{} bytes: {said}", said.len());
+    }
+}
+
+#[test]
+fn nothing_is_coloured_where_no_color_is_wanted() {
+    for color in [("NO_COLOR", "1"), ("TERM", "dumb")] {
+        let said = Command::new(env!("CARGO_BIN_EXE_centrode"))
+            .args(["design", "heart", "dove", "--kerf", "wide", "-o", "out"])
+            .env(color.0, color.1)
+            .output()
+            .unwrap();
+        let text = one_clear_line(&said, &["--kerf"]);
+        assert!(!text.contains('\u{1b}'), "{text}");
+    }
 }
 
 /// A small file system of its own, taken down when dropped; none where mounting is not allowed.

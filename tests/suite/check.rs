@@ -112,6 +112,36 @@ fn scaled(path: &str, scale: f64) -> String {
 }
 
 #[test]
+fn groups_of_a_drawing_tell_the_gears_apart() {
+    let bench = Bench::new();
+    let layer = |name: &str, driver: f64, follower: f64| {
+        format!(
+            "<g id='{name}'><g id='driver-{name}' transform='translate(50 50)'><circle r='{driver}'/></g>\
+             <g id='follower-{name}' transform='translate(150 50)'><circle r='{follower}'/></g></g>"
+        )
+    };
+    let svg = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='220mm' height='100mm' viewBox='0 0 220 100'>{}{}</svg>",
+        layer("bores", 3.0, 4.0),
+        layer("outlines", 30.0, 40.0)
+    );
+    let path = bench.file("laser.svg", svg);
+    let read = |source: &str, role| load_toothed(source, role).unwrap();
+    let by_name = format!("{path}#follower");
+    for (gear, radius) in [
+        (read(&path, GearRole::Driver), 30.0),
+        (read(&path, GearRole::Follower), 40.0),
+        (read(&by_name, GearRole::Driver), 40.0),
+    ] {
+        let area = PI * radius * radius;
+        assert!((gear.outline.area() / area - 1.0).abs() < 0.01, "{}", gear.outline.area());
+        assert_eq!(gear.holes.len(), 1);
+    }
+    let none = load_toothed(&format!("{path}#idler"), GearRole::Driver).unwrap_err().to_string();
+    assert!(none.contains("no part `idler`"), "{none}");
+}
+
+#[test]
 fn an_involute_pair_of_another_program_meshes() {
     let said = meshes(&[DRIVER, FOLLOWER, "-L", "72"]);
     assert_eq!(said["teeth"], serde_json::json!([24, 48]));

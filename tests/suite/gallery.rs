@@ -144,6 +144,45 @@ fn a_list_names_pairs_and_their_ratios() {
 }
 
 #[test]
+fn quotes_hold_names_with_blanks_and_hidden_files_are_left_alone() {
+    let bench = Bench::new();
+    let folder = bench.folder_of(
+        "lists",
+        &[("own shape.svg", shape("egg")), ("pairs.txt", "\"own shape.svg\" ellipse 2\n")],
+    );
+    let csv = bench.made("g", &["--pairs", &format!("{folder}/pairs.txt"), "--no-teeth"]);
+    assert_eq!(column(&csv, "folder"), ["own_shape+ellipse-k2"]);
+    let folder =
+        bench.folder_of("drawings", &[("a.svg", shape("ellipse")), (".hidden.svg", "<svg")]);
+    assert_eq!(column(&bench.made("h", &[&folder, "--no-teeth"]), "driver"), ["a"]);
+}
+
+#[test]
+fn a_threshold_without_an_image_is_remarked_unless_all_is_quiet() {
+    let bench = Bench::new();
+    let words = ["ellipse", "--no-teeth", "--threshold", "100"];
+    let said = bench.run("g", &words);
+    assert_eq!(said.status.code(), Some(0), "{}", complaint(&said));
+    let lines = complaint(&said);
+    assert!(lines.starts_with("warning: --threshold changes nothing"), "{lines}");
+    let said = bench.run("g", &[&words[..], &["--quiet"]].concat());
+    assert_eq!((said.status.code(), complaint(&said)), (Some(0), String::new()));
+}
+
+#[test]
+fn the_manual_has_a_page_for_every_step() {
+    let bench = Bench::new();
+    let place = bench.at("man").to_string_lossy().into_owned();
+    let said = centrode(["man", "-o", &place, "--quiet"]);
+    assert_eq!(said.status.code(), Some(0), "{}", complaint(&said));
+    assert!(said.stdout.is_empty());
+    for name in ["centrode.1", "centrode-gallery.1", "centrode-gallery-merge.1"] {
+        assert!(bench.at("man").join(name).is_file(), "{name}");
+    }
+    assert!(!bench.at("man").join("centrode-gallery-help.1").exists());
+}
+
+#[test]
 fn nonsense_is_refused_and_nothing_is_written() {
     let bench = Bench::new();
     let empty = bench.folder_of("empty", &[]);

@@ -45,7 +45,7 @@ impl Default for TraceOptions {
 pub enum TraceError {
     /// The tolerance is zero, negative, not a number, or finer than the files can hold.
     #[error(
-        "a tolerance of {tolerance} mm cannot be kept; give at least {} mm",
+        "a tolerance of {tolerance:e} mm cannot be kept; give at least {} mm",
         policy::LEAST_EXPORT_TOLERANCE
     )]
     Tolerance {

@@ -2,7 +2,7 @@
 
 use super::super::svg::{flatten, refuse_tiny};
 use super::super::{OutlineError, SvgError, svg_guard};
-use super::{Asked, Ring, ToothedError};
+use super::{Asked, GearRole, Ring, ToothedError};
 use crate::geometry::Point;
 use crate::policy;
 use crate::wording::quoted;
@@ -36,7 +36,7 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
     let scale = scale(document.root_element(), f64::from(tree.size().width()));
     let height = f64::from(tree.size().height());
     let mut paths = Vec::new();
-    collect(tree.root(), &mut paths);
+    collect(tree.root(), wanted_gear(&document, asked)?, &mut paths);
     refuse_tiny(&paths).map_err(failed)?;
     let corners: Vec<Point> = paths
         .iter()
@@ -62,11 +62,36 @@ pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Toothe
     Ok(rings)
 }
 
-fn collect<'a>(group: &'a usvg::Group, paths: &mut Vec<&'a usvg::Path>) {
+/// The gear that is asked for, where groups are named after gears, as in `laser.svg`; none where all is one gear.
+fn wanted_gear<'a>(
+    document: &usvg::roxmltree::Document<'_>,
+    asked: &Asked<'a>,
+) -> Result<Option<&'a str>, ToothedError> {
+    let exists = |gear: &str| {
+        let mut groups = document.descendants().filter(|n| n.tag_name().name() == "g");
+        groups.any(|n| n.attribute("id").is_some_and(|id| belongs(id, gear)))
+    };
+    let both = || [GearRole::Driver, GearRole::Follower].iter().all(|role| exists(role.name()));
+    match asked.part {
+        Some(part) if !exists(part) => Err(asked.no_such_part(part)),
+        Some(part) => Ok(Some(part)),
+        None => Ok(Some(asked.role.name()).filter(|_| both())),
+    }
+}
+
+/// Whether a group called `id` is the gear or a layer of it, such as `driver-cut-outlines` of `driver`.
+fn belongs(id: &str, gear: &str) -> bool {
+    id.strip_prefix(gear).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+}
+
+/// The visible paths, of the wanted gear alone if there is one.
+fn collect<'a>(group: &'a usvg::Group, wanted: Option<&str>, paths: &mut Vec<&'a usvg::Path>) {
     for node in group.children() {
         match node {
-            usvg::Node::Group(inner) => collect(inner, paths),
-            usvg::Node::Path(path) if path.is_visible() => paths.push(path),
+            usvg::Node::Group(inner) => {
+                collect(inner, wanted.filter(|gear| !belongs(inner.id(), gear)), paths);
+            }
+            usvg::Node::Path(path) if path.is_visible() && wanted.is_none() => paths.push(path),
             _ => {}
         }
     }
