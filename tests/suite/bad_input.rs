@@ -303,8 +303,8 @@ fn a_folder_that_cannot_be_made() {
     let in_the_way = ["plain is a file, not a folder; choose another folder with -o"];
     for (place, words) in [
         (plain.clone(), &in_the_way[..]),
-        (format!("{plain}/out"), &in_the_way),
-        ("/proc/none/out".to_owned(), &["cannot write", "choose a folder"]),
+        (format!("{plain}/out"), &in_the_way[..]),
+        ("/proc/none/out".to_owned(), &["cannot write", "choose a folder"][..]),
     ] {
         let said = centrode(["design", "heart", "dove", "--search", "paper", "-o", &place]);
         one_clear_line(&said, words);
@@ -370,10 +370,11 @@ fn options_of_files_have_ranges_and_do_not_contradict() {
 #[test]
 fn no_option_is_echoed_at_length() {
     let bench = Bench::new();
+    let [number, name] = ["9", "x"].map(|c| c.repeat(4000));
     for arguments in [
         vec!["heart", "dove", "--search", "paper", "--driver-axis", "1e308,0"],
-        vec!["heart", "dove", "--bore", &"9".repeat(4000)],
-        vec!["heart", &"x".repeat(4000)],
+        vec!["heart", "dove", "--bore", &number],
+        vec!["heart", &name],
     ] {
         let said = bench.refuses_options(&arguments, &["; "]);
         assert!(said.len() < 900, "{} bytes: {said}", said.len());
