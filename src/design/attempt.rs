@@ -186,8 +186,12 @@ impl Attempt {
             self.contact = contact(None, policy::CONTACT_POSES, centrodes, module, gears)?;
         }
         if self.relief.0 > 0 {
-            let lowered =
-                [0, 1].map(|i| self.finished[i].with_tips_lowered(policy::RELIEF_TIP * module));
+            // What ends at another point by rounding would be an edge of no length.
+            let shortest = policy::SHORTEST_EDGE * module;
+            let lowered = [0, 1].map(|i| {
+                let lower = self.finished[i].with_tips_lowered(policy::RELIEF_TIP * module)?;
+                Some(lower.without_short_edges(shortest))
+            });
             if let [Some(driver), Some(follower)] = lowered {
                 self.finished = [driver, follower];
                 let gears = [&self.finished[0], &self.finished[1]];
@@ -263,6 +267,14 @@ impl Attempt {
                 worst.value,
                 worst.driver_angle.to_degrees()
             ));
+        }
+        for (name, profile) in ["driver", "follower"].into_iter().zip(&self.finished) {
+            if let Some(at) = geometry::first_self_crossing(&profile.points) {
+                faults.push(format!(
+                    "the outline of the {name} crosses itself at ({:.3}, {:.3}); try more teeth or less clearance",
+                    at.x, at.y
+                ));
+            }
         }
         if self.error_share() > policy::WORST_TRANSMISSION_ERROR {
             faults.push(format!(
