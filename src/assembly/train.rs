@@ -409,7 +409,8 @@ impl TrainPlan {
                 .max_by(|a, b| a.1.total_cmp(&b.1));
             let Some((k, step)) = fastest else { continue };
             // Written so that an angle that is no number is refused too.
-            if !(step <= policy::TRAIN_TEETH_PER_SAMPLE * TAU / f64::from(teeth)) {
+            let told = step <= policy::TRAIN_TEETH_PER_SAMPLE * TAU / f64::from(teeth);
+            if !told {
                 return Err(TrainError::TooFast {
                     gear: gear.name.clone(),
                     speed: step / (driver_angle[k] - driver_angle[k - 1]),

@@ -141,7 +141,8 @@ fn misses(samples: &[f64], value: &dyn Fn(f64) -> f64, step: f64) -> Option<f64>
         let told: f64 = (0..4).map(|k| weights[k] * samples[(i + n + k - 1) % n]).sum();
         let off = (value((*i as f64 + t) * step) - told).abs();
         // Written so that a value that is not a number counts too.
-        !(off <= allowed)
+        let met = off <= allowed;
+        !met
     };
     let places: Vec<usize> = (0..n).filter(missed).collect();
     let most = policy::LAW_MISSES * n as f64;
