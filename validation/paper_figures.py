@@ -132,7 +132,7 @@ def figure_8(bench, shapes, images):
 
 def figure_12(bench, shapes, images):
     """The bound on the torque holds exactly, and gears get rounder."""
-    lines, good, last = [], True, None
+    lines, good, last, free = [], True, None, math.inf
     for tau in (None, 3.0, 2.0, 1.2, 1.0):
         options = [] if tau is None else ["--max-torque", tau]
         _, record, _ = bench.design(f"figure-12-{tau}", [shapes["fish"], shapes["butterfly"]], "--teeth", "48", NO_RUN, *options)
@@ -147,8 +147,11 @@ def figure_12(bench, shapes, images):
         curve = Polygon(record["driver"]["pitch_curve"])
         round_ = 4 * math.pi * curve.area / curve.length ** 2
         good &= tau is None or max(most, from_curve) <= tau * (1 + 1e-9)
-        good &= last is None or round_ >= last - 1e-3
-        last = round_
+        free = most if tau is None else free
+        # A bound above the torque of the pair without one only leads to other centres.
+        if tau is None or tau < free:
+            good &= last is None or round_ >= last - 1e-3
+            last = round_
         lines.append([tau or "none", f"{most:.9f}", f"{from_curve:.9f}", f"{round_:.3f}",
                       f"{record['resemblance']['driver_iou']:.3f} {record['resemblance']['follower_iou']:.3f}", record["meshing"]["verdict"]])
         if tau in (None, 2.0, 1.2):
@@ -157,7 +160,8 @@ def figure_12(bench, shapes, images):
         f"![tau {t}](images/paper/figure-12-{t}.svg)" for t in ("none", "2.0", "1.2"))
     return ("## Figure 12: a bound on the torque\n\nfish-butterfly, 48 teeth. Greatest psi' of the finished pair from its motion and from its pitch curve; "
             "roundness is 4 pi area / perimeter². Eq. 16 cuts and rescales, which lifts the law above the bound again; here the rescaling "
-            "is solved for, and the bound is checked on the delivered spline.\n\n"
+            "is solved for, and the bound is checked on the delivered spline. A bound above what the pair without one needs can lead to other centres all the same: on "
+            "the way laws are cut that the bound on lean would have lowered too, and what was cut counts.\n\n"
             + table(["tau_thres / tau_F", "max psi' from motion", "from pitch curve", "roundness of driver", "IoU", "verdict"], lines) + shown), good
 
 
@@ -276,7 +280,8 @@ def figure_20(bench, shapes, images):
             pictures.append(f"![{style}](images/paper/{name})")
     good = lost.get("involute") == 0 and lost.get("regular-wave", 1) >= lost.get("wave", 0)
     return ("## Figure 20: regular and customised teeth\n\nfish-butterfly, 48 teeth. Regular: the paper's waves of one height; wave: heights by Eq. 17; involute: this "
-            "program's. Contact analysis at 1440 poses and two runs as rigid bodies. [teeth.md](teeth.md) has the same on one fixed pair of curves.\n\n"
+            "program's. Contact analysis at 1440 poses and two runs as rigid bodies. [teeth.md](teeth.md) has the same on one fixed pair of curves. "
+            "These are made without their runs, so that none is mended: made as Table 1 is, with runs and with less lean where they fail, the pair passes.\n\n"
             + table(["teeth", "contact lost at", "transmission error p99, % of a pitch", "dynamics", "why"], lines)
             + ("\n\n" + " ".join(pictures) if pictures else "")), good
 

@@ -222,26 +222,12 @@ pub fn fit(
     // Impossible limits should be said at once, not found in every candidate.
     let even = [1.0; policy::MIN_TRANSMISSION_SAMPLES];
     apply(&even, problem.folds(), &options.limits)?;
-    let (mut found, pairs_scored) = match options.search {
+    let (found, pairs_scored) = match options.search {
         Search::Paper => paper_search::search(&problem),
         Search::Global => global_search::search(&problem),
     };
     let winner = found.first().ok_or(FitError::NoCenter)?;
-    let mut fit = placement::place(&problem, winner, pairs_scored)?;
-    // A bound that the best pair without it keeps anyway must not lead to another: on the way there laws are cut that
-    // the bound on lean would have lowered.
-    if let (Some(most), Search::Global) = (options.limits.max_derivative, options.search) {
-        let unbounded = Limits { max_derivative: None, ..options.limits };
-        let free = problem.with_limits(&unbounded);
-        let (without, scored) = global_search::search(&free);
-        let placed = without.first().and_then(|w| placement::place(&free, w, scored).ok());
-        if let Some(placed) = placed
-            && placed.transmission.max_derivative() <= most
-            && placed.objective.total < fit.objective.total
-        {
-            (fit, found) = (placed, without);
-        }
-    }
+    let fit = placement::place(&problem, winner, pairs_scored)?;
     // What is fixed must stay where it was put.
     if !options.refine || options.fixed != Fixed::default() {
         return Ok(fit);
