@@ -21,6 +21,7 @@ MEANINGS = [
      "leaves too little of them."),
     (r"contact is lost", "The pitch curves bend or lean so fast that, with as many teeth as were asked for, a flank ends "
      "before the next one takes hold. Up to four gentler settings were tried before."),
+    (r"too thin to hold together", "A neck of the gear is so thin that it is nothing to the kernel that makes the solid."),
     (r"play reaches", "Clearance, lean and small teeth together leave so much play that the teeth take hold at their tips only. "
      "Pairs with less lean were tried before."),
     (r"driven backwards", "As above, in one sense of rotation only."),
@@ -169,7 +170,7 @@ def write(folder, rows, reason, font, options):
         "of 1/3 to 4 and with 8 to 160 teeth on the driver, whether that suits the shapes or not; everything else is left at its",
         "default" + (", with the run as rigid bodies." if options.simulate else ", without the run as rigid bodies.")
         + " A delivered pair must mesh by `validation/play.py`, which shares no code with Centrode",
-        f"({options.poses} poses: no overlap, contact kept, swing and play within limits), and its files must hold finite numbers only; "
+        f"({options.poses} poses: no overlap, contact kept, swing and play within limits; where the program warned of the swing, its own limit of a quarter pitch), and its files must hold finite numbers only; "
         "a refusal",
         "must write nothing and be one sentence that ends in a remedy. Anything else is a failure, as are a panic, 120 s of work or",
         "500 MB.", "",
