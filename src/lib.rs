@@ -3,7 +3,9 @@
 //! A tour, in the order the data flows:
 //! [`outline`] reads drawings; [`pitch`] rolls curves on each other; [`fit`] finds axes and motion for two shapes, or the
 //! mate of one; [`law`] reads motions as formulas and tables; [`teeth`] lays flanks on the pitch curves; [`design`] does all
-//! of it and judges the result with [`meshing`] and [`strength`]; [`solid`], [`export`] and [`report`] make files.
+//! of it and judges the result with [`meshing`] and [`strength`]; [`assembly`] puts pairs together to trains; [`solid`],
+//! [`export`] and [`report`] make files. [`check`] judges gears of any origin, [`gallery`] ranks many pairs, [`scene`] keeps a
+//! command's options in a file.
 //!
 //! Two shapes:
 //!
@@ -33,8 +35,8 @@
 //! # Ok::<(), centrode::law::LawError>(())
 //! ```
 //!
-//! Lengths are mm, angles radians, torques N mm. Nothing here prints, and only [`outline::load`], [`export`] and
-//! [`design::SavedDesign::read`] touch files.
+//! Lengths are mm, angles radians, torques N mm. Nothing here prints, and only [`outline::load`], [`export`],
+//! [`design::SavedDesign::read`] and [`design::read_train`] touch files.
 
 pub mod assembly;
 pub mod check;
