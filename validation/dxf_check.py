@@ -45,15 +45,14 @@ def points_on(start, end, bulge, count):
 
 
 def bows(ring):
-    """How far a curve through the vertices may stand off each chord: twice the estimate at the middle, and 32/27 of that, for a
-    chord whose curve bends at one end only, as t^2 (1 - t) does, bows most at two thirds."""
+    """How far a curve through the vertices may stand off each chord: twice the estimate at the middle."""
     edges = np.roll(ring, -1, 0) - ring
     length = np.hypot(*edges.T)
     before = np.roll(edges, 1, 0)
     cross = before[:, 0] * edges[:, 1] - before[:, 1] * edges[:, 0]
     turn = np.abs(np.arctan2(cross, (before * edges).sum(1)))
     bend = 2 * turn / (length + np.roll(length, 1))
-    return 32 / 27 * 2 * np.maximum(bend, np.roll(bend, -1)) * length**2 / 8
+    return 2 * np.maximum(bend, np.roll(bend, -1)) * length**2 / 8
 
 
 def without_folds(ring, width):
