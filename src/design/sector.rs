@@ -226,5 +226,14 @@ fn back(ring: &[Point], outline: &[Point], hub: f64) -> Option<Vec<Point>> {
     let (from, to) = if tangents { (a, b) } else { (angle(last), angle(last) + open) };
     let step = 2.0 * (1.0 - policy::BORE_CHORD_TOLERANCE / hub).clamp(-1.0, 1.0).acos();
     let pieces = ((to - from) / step).ceil().max(1.0) as usize;
-    Some((0..=pieces).map(|k| on_hub(from + (to - from) * k as f64 / pieces as f64)).collect())
+    let arc: Vec<Point> =
+        (0..=pieces).map(|k| on_hub(from + (to - from) * k as f64 / pieces as f64)).collect();
+    // Straight ways in pieces as long as those of the hub: files that draw true curves then see that they are straight.
+    let straight = |a: Point, b: Point| {
+        let count = ((b - a).norm() / (step * hub)).ceil().max(1.0) as usize;
+        (1..count).map(move |k| a + (b - a) * (k as f64 / count as f64))
+    };
+    let there = straight(last, arc[0]);
+    let home = straight(arc[arc.len() - 1], first);
+    Some(there.chain(arc.iter().copied()).chain(home).collect())
 }
