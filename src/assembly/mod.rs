@@ -3,6 +3,7 @@
 //! Every picture, solid and file is made from an [`Assembly`]; it knows
 //! nothing of how the gears were designed.
 
+mod collisions;
 mod motion;
 mod train;
 

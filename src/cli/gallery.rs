@@ -34,7 +34,7 @@ use super::{Outcome, report};
 const ROW: &str = "row.json";
 
 /// The tables and the page of all pairs.
-const TABLES: [&str; 3] = ["gallery.csv", "gallery.json", "index.html"];
+pub(super) const TABLES: [&str; 3] = ["gallery.csv", "gallery.json", "index.html"];
 
 pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outcome> {
     if let Some(GalleryStep::Merge(merge)) = &args.step {

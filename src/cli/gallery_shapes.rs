@@ -7,6 +7,8 @@ use centrode::fit::Ratio;
 use centrode::outline::{LoadOptions, Shape, library, load};
 use rayon::prelude::*;
 
+use super::gallery::TABLES;
+
 /// Endings of files that are taken for drawings in a folder.
 const DRAWINGS: [&str; 10] =
     ["svg", "png", "jpg", "jpeg", "tif", "tiff", "bmp", "csv", "txt", "json"];
@@ -140,9 +142,8 @@ fn drawings_in(folder: &Path) -> anyhow::Result<Vec<String>> {
 
 /// Whether it is a table that an earlier gallery left in this folder, beside its page.
 fn is_own_table(path: &Path) -> bool {
-    let tables = ["gallery.csv", "gallery.json"];
-    path.file_name().is_some_and(|n| tables.iter().any(|t| n == *t))
-        && tables.iter().chain(&["index.html"]).all(|n| path.with_file_name(n).is_file())
+    path.file_name().is_some_and(|n| TABLES.iter().any(|t| n == *t))
+        && TABLES.iter().all(|n| path.with_file_name(n).is_file())
 }
 
 /// The words of a line up to a `#`; what is in quotes is one word. None where a quote is left open.

@@ -89,22 +89,15 @@ impl Design {
     /// # Errors
     /// See [`DynamicsError`].
     pub fn simulate(&mut self, runs: &[DynamicsOptions]) -> Result<(), DynamicsError> {
-        let [driver, follower] = &self.assembly.gears[..] else { return Ok(()) };
         if runs.is_empty() {
             return Ok(());
         }
-        let transmission = &self.centrodes.transmission;
-        let contact = ContactInput {
-            driver: &driver.gear.outline,
-            follower: &follower.gear.outline,
-            center_distance: self.centrodes.center_distance,
-            module: self.pair.module,
-            motion: &|phi| transmission.psi(phi),
-            motion_derivative: &|phi| transmission.derivative(phi),
-            driver_cycle: self.assembly.driver_angle.last().copied().unwrap_or_default(),
-        };
-        let input = DynamicsInput { contact, driver_teeth: self.teeth[0] };
-        let proof = prove(&input, self.contact.clone(), runs, &Limits::default())?;
+        let cycle = self.assembly.driver_angle.last().copied().unwrap_or_default();
+        let proof = self.in_mesh(cycle, |contact| {
+            let input = DynamicsInput { contact, driver_teeth: self.teeth[0] };
+            prove(&input, self.contact.clone(), runs, &Limits::default())
+        });
+        let Some(proof) = proof.transpose()? else { return Ok(()) };
         // The contact analysis has been judged already, by stricter limits.
         let new = |r: &&Reason| {
             !matches!(r, Reason::ContactLost { .. } | Reason::Overlap { .. } | Reason::NoContact)
@@ -113,6 +106,21 @@ impl Design {
         self.warnings.extend(proof.warnings.iter().filter(new).map(ToString::to_string));
         self.proof = Some(proof);
         Ok(())
+    }
+
+    /// What `with` makes of the finished gears in mesh over a driver angle of `cycle`; none unless they are a pair.
+    fn in_mesh<T>(&self, cycle: f64, with: impl FnOnce(ContactInput<'_>) -> T) -> Option<T> {
+        let [driver, follower] = &self.assembly.gears[..] else { return None };
+        let transmission = &self.centrodes.transmission;
+        Some(with(ContactInput {
+            driver: &driver.gear.outline,
+            follower: &follower.gear.outline,
+            center_distance: self.centrodes.center_distance,
+            module: self.pair.module,
+            motion: &|phi| transmission.psi(phi),
+            motion_derivative: &|phi| transmission.derivative(phi),
+            driver_cycle: cycle,
+        }))
     }
 
     /// Proves the finished pair: by the runs asked for, or without any by the swing of its contact analysis.

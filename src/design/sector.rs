@@ -6,7 +6,7 @@ use super::{Design, DesignError};
 use crate::assembly::Gear;
 use crate::geometry::{self, Point};
 use crate::law::Segment;
-use crate::meshing::{ContactInput, ContactOptions, poses_at};
+use crate::meshing::{ContactOptions, poses_at};
 use crate::pitch::Centrodes;
 use crate::policy;
 use std::f64::consts::{PI, TAU};
@@ -80,27 +80,18 @@ pub(super) fn cut(made: &mut Design, segment: Segment) -> Result<(), DesignError
 
 /// Contact of the gears as they are now, over the segment.
 fn judge(made: &mut Design, segment: Segment) -> Result<(), DesignError> {
-    let [driver, follower] = &made.assembly.gears[..] else { return Ok(()) };
-    let transmission = &made.centrodes.transmission;
-    let input = ContactInput {
-        driver: &driver.gear.outline,
-        follower: &follower.gear.outline,
-        center_distance: made.centrodes.center_distance,
-        module: made.pair.module,
-        motion: &|phi| transmission.psi(phi),
-        motion_derivative: &|phi| transmission.derivative(phi),
-        driver_cycle: segment.length(),
-    };
     let count = policy::CONTACT_POSES;
     let angles: Vec<f64> =
         (0..=count).map(|i| segment.from + segment.length() * i as f64 / count as f64).collect();
-    let poses = poses_at(&input, &ContactOptions::default(), &angles)?;
+    let poses = made
+        .in_mesh(segment.length(), |input| poses_at(&input, &ContactOptions::default(), &angles));
+    let poses = poses.transpose()?.unwrap_or_default();
     let known = made.contact.summary.max_interference.as_ref().map_or(0.0, |w| w.value);
     let allowed = known + policy::WORST_INTERFERENCE * made.pair.module;
     let bad = poses.iter().find(|p| p.lost || p.lost_reversed || p.interference > allowed);
     match bad {
         Some(pose) => made.faults.push(format!(
-            "cut to its segment the pair loses contact at {:.1} degrees of driver turn; leave out --sector or give more teeth",
+            "cut to its segment the pair loses contact or overlaps at {:.1} degrees of driver turn; leave out --sector or give more teeth",
             pose.driver_angle.to_degrees()
         )),
         None => made.steps.push(format!(
