@@ -4,6 +4,7 @@
 
 use centrode::assembly::{Layout, PairModel, SampledMotion, TrainPlan};
 use centrode::design::{DesignOptions, from_motion};
+use centrode::gear::Pair;
 use centrode::law::{LawOptions, Preset};
 use centrode::meshing::train_play;
 
@@ -14,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let [driver, follower] = &made.assembly.gears[..] else { return Err("no pair".into()) };
     let pair = PairModel {
-        gears: [driver.gear.clone(), follower.gear.clone()],
+        gears: Pair::new(driver.gear.clone(), follower.gear.clone()),
         motion: SampledMotion::of_pair(&made.assembly)?,
         center_distance: made.centrodes.center_distance,
         module: made.pair.module,

@@ -1,7 +1,7 @@
 //! Centrode turns two drawings, or one, or a wanted motion into a pair of non-circular gears that mesh.
 //!
 //! A tour, in the order the data flows:
-//! [`outline`] reads drawings; [`pitch`] rolls curves on each other; [`fit`] finds axes and motion for two shapes, or the
+//! [`outline`] reads drawings; [`gear`] tells the two gears apart; [`pitch`] rolls curves on each other; [`fit`] finds axes and motion for two shapes, or the
 //! mate of one; [`law`] reads motions as formulas and tables; [`teeth`] lays flanks on the pitch curves; [`design`] does all
 //! of it and judges the result with [`meshing`] and [`strength`]; [`assembly`] puts pairs together to trains; [`solid`],
 //! [`export`] and [`report`] make files. [`check`] judges gears of any origin, [`gallery`] ranks many pairs, [`scene`] keeps a
@@ -44,6 +44,7 @@ pub mod design;
 pub mod export;
 pub mod fit;
 pub mod gallery;
+pub mod gear;
 pub mod geometry;
 pub mod law;
 pub mod meshing;

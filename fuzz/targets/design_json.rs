@@ -8,14 +8,15 @@ use centrode::export::{
     Animation, Dxf, Export, Glb, LaserSvg, Mjcf, Obj, Parts, Step, Stl, ThreeMf,
 };
 use centrode::meshing::ContactOptions;
-use centrode::outline::{GearRole, toothed_from_bytes};
+use centrode::gear::Side;
+use centrode::outline::{toothed_from_bytes};
 use centrode::solid::assembly_solids;
 use centrode_fuzz::{remedied, told};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
     let gear = |role| toothed_from_bytes(text.as_bytes(), "design.json", None, role);
-    match (gear(GearRole::Driver), gear(GearRole::Follower)) {
+    match (gear(Side::Driver), gear(Side::Follower)) {
         (Ok(driver), Ok(follower)) => {
             let contact = ContactOptions { poses: 48, ..ContactOptions::default() };
             let options = CheckOptions { contact, ..CheckOptions::default() };

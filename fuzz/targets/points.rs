@@ -2,7 +2,8 @@
 #![no_main]
 
 use centrode::check::motion_from_columns;
-use centrode::outline::{GearRole, LoadOptions, shape_from_bytes, toothed_from_bytes};
+use centrode::gear::Side;
+use centrode::outline::{LoadOptions, shape_from_bytes, toothed_from_bytes};
 use centrode_fuzz::{remedied, sound, sound_shape, told};
 use libfuzzer_sys::fuzz_target;
 
@@ -12,11 +13,11 @@ fuzz_target!(|data: &[u8]| {
         Ok(shape) => sound_shape(&shape),
         Err(error) => remedied(&error),
     }
-    match toothed_from_bytes(data, "a", Some("driver"), GearRole::Follower) {
+    match toothed_from_bytes(data, "a", Some("driver"), Side::Follower) {
         Ok(gear) => sound(&gear.outline),
         Err(error) => remedied(&error),
     }
-    match toothed_from_bytes(data, "a.csv", None, GearRole::Follower) {
+    match toothed_from_bytes(data, "a.csv", None, Side::Follower) {
         Ok(gear) => gear.holes.iter().for_each(sound),
         Err(error) => remedied(&error),
     }

@@ -1,7 +1,8 @@
 //! A drawing as SVG, and a finished gear as SVG.
 #![no_main]
 
-use centrode::outline::{GearRole, LoadOptions, shape_from_bytes, toothed_from_bytes};
+use centrode::gear::Side;
+use centrode::outline::{LoadOptions, shape_from_bytes, toothed_from_bytes};
 use centrode_fuzz::{remedied, sound, sound_shape};
 use libfuzzer_sys::fuzz_target;
 
@@ -11,7 +12,7 @@ fuzz_target!(|data: &[u8]| {
         Ok(shape) => sound_shape(&shape),
         Err(error) => remedied(&error),
     }
-    match toothed_from_bytes(data, "a.svg", None, GearRole::Driver) {
+    match toothed_from_bytes(data, "a.svg", None, Side::Driver) {
         Ok(gear) => sound(&gear.outline),
         Err(error) => remedied(&error),
     }

@@ -8,7 +8,7 @@ mod motion;
 mod train;
 
 pub use motion::{MotionError, SampledMotion};
-pub use train::{Layout, Link, PairModel, Role, Train, TrainError, TrainGear, TrainPlan};
+pub use train::{Layout, Link, PairModel, Train, TrainError, TrainGear, TrainPlan};
 mod fittings;
 
 pub use fittings::{Fittings, Fixture, Hub, Mark, Opening, Post};

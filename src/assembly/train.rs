@@ -6,6 +6,7 @@
 //! meshes, so motion is handed on by psi, and by its inverse where a follower drives a driver's twin.
 
 use super::{Assembly, Gear, PlacedGear, SampledMotion, collisions};
+use crate::gear::{Pair, Side};
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
 use rayon::prelude::*;
@@ -15,40 +16,13 @@ use std::f64::consts::{PI, TAU};
 #[derive(Clone, Debug)]
 pub struct PairModel {
     /// Driver and follower as designed.
-    pub gears: [Gear; 2],
+    pub gears: Pair<Gear>,
     /// psi over the driver angle.
     pub motion: SampledMotion,
     /// Distance of the axes.
     pub center_distance: f64,
     /// Module.
     pub module: f64,
-}
-
-/// Which gear of its pair a gear is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// The first.
-    Driver,
-    /// The second.
-    Follower,
-}
-
-impl Role {
-    /// The other one.
-    #[must_use]
-    pub fn partner(self) -> Self {
-        match self {
-            Self::Driver => Self::Follower,
-            Self::Follower => Self::Driver,
-        }
-    }
-
-    fn number(self) -> usize {
-        match self {
-            Self::Driver => 0,
-            Self::Follower => 1,
-        }
-    }
 }
 
 /// How a gear hangs on one that is already there.
@@ -76,7 +50,7 @@ pub struct TrainGear {
     /// The pair it is one of, by number.
     pub pair: usize,
     /// Which of the two.
-    pub role: Role,
+    pub side: Side,
     /// The gear it hangs on, of lesser number, and how; none for the first.
     pub link: Option<(usize, Link)>,
 }
@@ -208,7 +182,7 @@ impl TrainPlan {
         let mut direction = 0.0;
         let gears = (0..count)
             .map(|i| {
-                let role = if i % 2 == 0 { Role::Driver } else { Role::Follower };
+                let side = if i % 2 == 0 { Side::Driver } else { Side::Follower };
                 if i > 0 {
                     direction = match layout {
                         Layout::Straight => 0.0,
@@ -225,7 +199,7 @@ impl TrainPlan {
                 TrainGear {
                     name: format!("gear{:02}", i + 1),
                     pair: 0,
-                    role,
+                    side,
                     link: (i > 0).then(|| (i - 1, Link::Mesh { direction })),
                 }
             })
@@ -270,7 +244,7 @@ impl TrainPlan {
             .zip(axes.iter().zip(starts))
             .zip(angles)
             .map(|((gear, (&(axis, level), start)), angle)| {
-                let model = &self.pairs[gear.pair].gears[gear.role.number()];
+                let model = &self.pairs[gear.pair].gears[gear.side];
                 let gear = turned(model, start, gear.name.clone());
                 PlacedGear { gear, axis, level, angle }
             })
@@ -315,7 +289,7 @@ impl TrainPlan {
     }
 
     fn one_pair(&self, a: &TrainGear, b: &TrainGear) -> Result<(), TrainError> {
-        if a.pair == b.pair && a.role == b.role.partner() {
+        if a.pair == b.pair && a.side == b.side.partner() {
             return Ok(());
         }
         Err(TrainError::NotAPair { first: a.name.clone(), second: b.name.clone() })
@@ -360,9 +334,9 @@ impl TrainPlan {
             .iter()
             .position(|g| matches!(g.link, Some((on, Link::Mesh { .. })) if on == 0));
         let direction = first.map_or(0.0, |i| toward(axes, [0, i]));
-        match self.gears[0].role {
-            Role::Driver => direction,
-            Role::Follower => direction + PI - self.pairs[self.gears[0].pair].motion.psi(0.0),
+        match self.gears[0].side {
+            Side::Driver => direction,
+            Side::Follower => direction + PI - self.pairs[self.gears[0].pair].motion.psi(0.0),
         }
     }
 
@@ -370,10 +344,10 @@ impl TrainPlan {
     fn handed_on(&self, axes: &[(Point, f64)], [from, to]: [usize; 2], angle: f64) -> f64 {
         let motion = &self.pairs[self.gears[to].pair].motion;
         let direction = toward(axes, [from, to]);
-        match self.gears[to].role {
-            Role::Follower => direction - motion.psi(angle - direction),
+        match self.gears[to].side {
+            Side::Follower => direction - motion.psi(angle - direction),
             // Seen from the driver, the line of centres points the other way.
-            Role::Driver => {
+            Side::Driver => {
                 let line = direction + PI;
                 line + motion.inverse(line - angle)
             }
@@ -383,9 +357,9 @@ impl TrainPlan {
     /// Driver angle after which every gear stands as at first, and how many cycles of the first pair that is.
     fn cycle(&self, axes: &[(Point, f64)]) -> Result<(f64, usize), TrainError> {
         let one = self.pairs[self.gears[0].pair].motion.cycle();
-        let one = match self.gears[0].role {
-            Role::Driver => one,
-            Role::Follower => self.pairs[self.gears[0].pair].motion.psi(one),
+        let one = match self.gears[0].side {
+            Side::Driver => one,
+            Side::Follower => self.pairs[self.gears[0].pair].motion.psi(one),
         };
         let starts = self.rotations(axes, 0.0);
         (1..=policy::TRAIN_MOST_CYCLES)
@@ -403,7 +377,7 @@ impl TrainPlan {
     /// No gear may pass more than [`policy::TRAIN_TEETH_PER_SAMPLE`] of its teeth from one motion sample to the next.
     fn check_speeds(&self, driver_angle: &[f64], angles: &[Vec<f64>]) -> Result<(), TrainError> {
         for (gear, angle) in self.gears.iter().zip(angles) {
-            let teeth = self.pairs[gear.pair].gears[gear.role.number()].teeth.max(1);
+            let teeth = self.pairs[gear.pair].gears[gear.side].teeth.max(1);
             let fastest = (1..angle.len())
                 .map(|k| (k, (angle[k] - angle[k - 1]).abs()))
                 .max_by(|a, b| a.1.total_cmp(&b.1));
@@ -426,7 +400,7 @@ impl TrainPlan {
         for &[first, last] in &self.closing {
             let off = self.opening(assembly, [first, last]);
             let gear = &self.gears[last];
-            let pitch = TAU / f64::from(self.pairs[gear.pair].gears[gear.role.number()].teeth);
+            let pitch = TAU / f64::from(self.pairs[gear.pair].gears[gear.side].teeth);
             let allowed = policy::RING_SHARE_OF_PITCH * pitch;
             if off > allowed {
                 return Err(TrainError::Open { off, allowed });
@@ -439,7 +413,7 @@ impl TrainPlan {
     fn opening(&self, assembly: &Assembly, [first, last]: [usize; 2]) -> f64 {
         let axes: Vec<(Point, f64)> = assembly.gears.iter().map(|g| (g.axis, g.level)).collect();
         let gear = &self.gears[last];
-        let model = &self.pairs[gear.pair].gears[gear.role.number()];
+        let model = &self.pairs[gear.pair].gears[gear.side];
         let same = TAU / f64::from(symmetry(model));
         let stride = (assembly.driver_angle.len() / policy::RING_SAMPLES).max(1);
         assembly
@@ -490,7 +464,7 @@ impl TrainPlan {
             .map(|i| cycle * i as f64 / policy::RING_SAMPLES as f64)
             .collect();
         let place = |&(axis, level): &(Point, f64), gear: &TrainGear| PlacedGear {
-            gear: self.pairs[gear.pair].gears[gear.role.number()].clone(),
+            gear: self.pairs[gear.pair].gears[gear.side].clone(),
             axis,
             level,
             angle: Vec::new(),

@@ -26,7 +26,7 @@ fn wavy(amplitude: f64, shrink: f64) -> PairModel {
         teeth: 32,
     };
     PairModel {
-        gears: [gear("driver", first), gear("follower", second)],
+        gears: Pair::new(gear("driver", first), gear("follower", second)),
         motion,
         center_distance: 80.0,
         module: 2.5,
@@ -78,15 +78,15 @@ fn pitch_curves_roll_on_each_other_in_every_mesh_of_a_bent_chain() {
 #[test]
 fn branches_and_shared_axles_are_trees() {
     let mut plan = TrainPlan::chain(wavy(0.3, 1.0), 3, Layout::Straight, 8.0).unwrap();
-    let gear = |name: &str, role, on, link| TrainGear {
+    let gear = |name: &str, side, on, link| TrainGear {
         name: name.to_owned(),
         pair: 0,
-        role,
+        side,
         link: Some((on, link)),
     };
-    plan.gears.push(gear("up", Role::Driver, 1, Link::Mesh { direction: 1.5 }));
-    plan.gears.push(gear("above", Role::Driver, 2, Link::Axle { rise: 10.0, turn: 0.4 }));
-    plan.gears.push(gear("far", Role::Follower, 4, Link::Mesh { direction: -1.0 }));
+    plan.gears.push(gear("up", Side::Driver, 1, Link::Mesh { direction: 1.5 }));
+    plan.gears.push(gear("above", Side::Driver, 2, Link::Axle { rise: 10.0, turn: 0.4 }));
+    plan.gears.push(gear("far", Side::Follower, 4, Link::Mesh { direction: -1.0 }));
     let train = plan.assemble().unwrap();
     rolls(&train);
     assert_eq!(train.assembly.axles, vec![[2, 4]]);
@@ -119,7 +119,7 @@ fn round_gears_close_a_ring_and_others_say_by_how_much_not() {
 #[test]
 fn gears_of_one_kind_do_not_mesh() {
     let mut plan = TrainPlan::chain(wavy(0.3, 1.0), 3, Layout::Straight, 8.0).unwrap();
-    plan.gears[2].role = Role::Follower;
+    plan.gears[2].side = Side::Follower;
     assert!(matches!(plan.assemble(), Err(TrainError::NotAPair { .. })));
     plan.gears[2].link = Some((5, Link::Mesh { direction: 0.0 }));
     assert!(matches!(plan.assemble(), Err(TrainError::Unknown { .. })));

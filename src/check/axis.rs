@@ -1,8 +1,9 @@
 //! Where a gear's axis is.
 
 use super::CheckError;
+use crate::gear::Side;
 use crate::geometry::Point;
-use crate::outline::{GearRole, Toothed};
+use crate::outline::Toothed;
 
 /// How an axis was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,33 +34,32 @@ impl AxisSource {
 /// [`CheckError::AxisOutside`] and [`CheckError::NoAxis`].
 pub(super) fn axis(
     gear: &Toothed,
-    role: GearRole,
+    side: Side,
     given: Option<Point>,
 ) -> Result<(Point, AxisSource), CheckError> {
-    let name = role.name();
     if let Some(axis) = given {
         return if gear.outline.contains(axis) {
             Ok((axis, AxisSource::Given))
         } else {
-            Err(CheckError::AxisOutside { gear: name, x: axis.x, y: axis.y })
+            Err(CheckError::AxisOutside { gear: side, x: axis.x, y: axis.y })
         };
     }
     if gear.record.is_some() {
-        return inside(gear, name).map(|axis| (axis, AxisSource::Origin));
+        return inside(gear, side).map(|axis| (axis, AxisSource::Origin));
     }
     let about_origin = || gear.holes.iter().find(|hole| hole.contains(Point::origin()));
     let bore = if gear.holes.len() == 1 { gear.holes.first() } else { about_origin() };
     match bore {
         Some(hole) => Ok((hole.centroid(), AxisSource::Bore)),
         None if gear.outline.contains(Point::origin()) => Ok((Point::origin(), AxisSource::Origin)),
-        None => Err(CheckError::NoAxis { gear: name, holes: gear.holes.len() }),
+        None => Err(CheckError::NoAxis { gear: side, holes: gear.holes.len() }),
     }
 }
 
-fn inside(gear: &Toothed, name: &'static str) -> Result<Point, CheckError> {
+fn inside(gear: &Toothed, side: Side) -> Result<Point, CheckError> {
     if gear.outline.contains(Point::origin()) {
         Ok(Point::origin())
     } else {
-        Err(CheckError::AxisOutside { gear: name, x: 0.0, y: 0.0 })
+        Err(CheckError::AxisOutside { gear: side, x: 0.0, y: 0.0 })
     }
 }

@@ -1,6 +1,7 @@
 //! What cannot be checked.
 
 use super::motion::MotionFileError;
+use crate::gear::Side;
 use crate::meshing::{ContactError, DynamicsError};
 
 /// Why a pair cannot be checked. A pair that can be, and fails, is no error.
@@ -22,8 +23,8 @@ pub enum CheckError {
         "the {gear}'s axis ({x:.3}, {y:.3}) lies outside the gear; give one inside its outline"
     )]
     AxisOutside {
-        /// `driver` or `follower`.
-        gear: &'static str,
+        /// Which gear.
+        gear: Side,
         /// Where, mm.
         x: f64,
         /// Where, mm.
@@ -34,24 +35,24 @@ pub enum CheckError {
         "the {gear} has {holes} holes and the origin is outside it, so its axis is unknown; give --{gear}-axis x,y"
     )]
     NoAxis {
-        /// `driver` or `follower`.
-        gear: &'static str,
+        /// Which gear.
+        gear: Side,
         /// Holes in it.
         holes: usize,
     },
     /// No regular teeth.
     #[error("no regular teeth were found on the {gear}; give a toothed outline, or --teeth N,M")]
     NoTeeth {
-        /// `driver` or `follower`.
-        gear: &'static str,
+        /// Which gear.
+        gear: Side,
     },
     /// A count of teeth that is out of range.
     #[error(
         "the {gear} is said to have {count} teeth; give --teeth N,M with {least} to {most} each"
     )]
     TeethRange {
-        /// `driver` or `follower`.
-        gear: &'static str,
+        /// Which gear.
+        gear: Side,
         /// Teeth given, or recorded.
         count: u32,
         /// Fewest that are counted.

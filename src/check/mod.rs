@@ -13,12 +13,13 @@ pub use axis::AxisSource;
 pub use error::CheckError;
 pub use motion::{MotionFileError, motion_from_columns};
 
+use crate::gear::Side;
 use crate::geometry::Point;
 use crate::meshing::{
     ContactInput, ContactOptions, ContactSummary, Direction, Dynamics, DynamicsInput,
     DynamicsOptions, Limits, Reason, Verdict, analyse, judge, simulate,
 };
-use crate::outline::{GearRole, PairRecord, Toothed};
+use crate::outline::{PairRecord, Toothed};
 use crate::policy;
 use motion::Law;
 use pair::Pair;
@@ -143,14 +144,11 @@ pub fn check(
     options: &CheckOptions,
 ) -> Result<CheckReport, CheckError> {
     let mut notes = Vec::new();
-    for (gear, role) in [(driver, GearRole::Driver), (follower, GearRole::Follower)] {
+    for (gear, side) in [(driver, Side::Driver), (follower, Side::Follower)] {
         if let Some(t) = gear.thinned {
             notes.push(format!(
                 "the {} was thinned from {} to {} vertices, within {:.1e} mm",
-                role.name(),
-                t.from,
-                t.to,
-                t.tolerance
+                side, t.from, t.to, t.tolerance
             ));
         }
     }
@@ -163,8 +161,8 @@ pub fn check(
         return Err(CheckError::NotPositive { name: "centre distance", value: center_distance });
     }
     let axes = [
-        axis::axis(driver, GearRole::Driver, options.axes[0])?,
-        axis::axis(follower, GearRole::Follower, options.axes[1])?,
+        axis::axis(driver, Side::Driver, options.axes[0])?,
+        axis::axis(follower, Side::Follower, options.axes[1])?,
     ];
     let pair = set_up([driver, follower], &axes, center_distance, record, options.teeth)?;
     let law = match motion::law(&pair, record, &options.motion)? {
@@ -217,7 +215,7 @@ fn set_up(
     }
     let known = teeth.or(record.and_then(|r| r.teeth));
     let counted = |i: usize| {
-        let gear = [GearRole::Driver, GearRole::Follower][i].name();
+        let gear = Side::BOTH[i];
         let (least, most) = policy::TEETH_BELIEVED;
         if let Some(count) = known.map(|t| t[i]).filter(|n| !(least..=most).contains(n)) {
             return Err(CheckError::TeethRange { gear, count, least, most });

@@ -2,6 +2,7 @@
 
 use super::pair::Pair;
 use super::{CheckError, MotionGiven, MotionSource};
+use crate::gear::Side;
 use crate::meshing::{MotionError, SampledMotion};
 use crate::outline::PairRecord;
 use crate::policy;
@@ -26,8 +27,8 @@ pub enum MotionFileError {
         "the motion covers {turns:.4} turns of the {gear}; give whole turns of the driver that close the follower's too, angles in radians"
     )]
     NotWhole {
-        /// `driver` or `follower`.
-        gear: &'static str,
+        /// Which gear.
+        gear: Side,
         /// Turns covered.
         turns: f64,
     },
@@ -170,10 +171,10 @@ fn repeats(driver: &[f64], follower: &[f64]) -> Result<u32, MotionFileError> {
     let off = |turns: f64| (turns - turns.round()).abs() * TAU;
     let (d, f) = (turned(driver), turned(follower));
     if off(d) > policy::MOTION_CLOSES || d < 0.5 {
-        return Err(MotionFileError::NotWhole { gear: "driver", turns: d });
+        return Err(MotionFileError::NotWhole { gear: Side::Driver, turns: d });
     }
     let most = (f64::from(policy::CHECK_TURNS) / d.round()).max(1.0) as u32;
     (1..=most)
         .find(|n| off(f * f64::from(*n)) <= policy::MOTION_CLOSES * f64::from(*n))
-        .ok_or(MotionFileError::NotWhole { gear: "follower", turns: f })
+        .ok_or(MotionFileError::NotWhole { gear: Side::Follower, turns: f })
 }

@@ -105,7 +105,7 @@ fn the_axis_is_the_bore_or_the_origin_or_asked_for() {
     let shift = crate::geometry::Vector::new(7.0, 3.0);
     let outline = || waves(30, 0.1, 0, 0);
     let moved: Vec<Point> = outline().iter().map(|p| p + shift * 20.0).collect();
-    let found = |gear: &Toothed| axis::axis(gear, GearRole::Driver, None);
+    let found = |gear: &Toothed| axis::axis(gear, Side::Driver, None);
     let (at, source) = found(&gear(outline(), &[Point::from(shift)])).unwrap();
     assert!((at.coords - shift).norm() < 1e-9 && source == AxisSource::Bore);
     // Of several holes the one about the origin.
@@ -113,9 +113,9 @@ fn the_axis_is_the_bore_or_the_origin_or_asked_for() {
     assert!((found(&two).unwrap().0.x - 0.2).abs() < 1e-9);
     assert_eq!(found(&gear(outline(), &[])), Ok((Point::origin(), AxisSource::Origin)));
     let none = found(&gear(moved, &[]));
-    assert_eq!(none, Err(CheckError::NoAxis { gear: "driver", holes: 0 }));
-    let outside = axis::axis(&two, GearRole::Follower, Some(Point::new(90.0, 0.0)));
-    assert_eq!(outside, Err(CheckError::AxisOutside { gear: "follower", x: 90.0, y: 0.0 }));
+    assert_eq!(none, Err(CheckError::NoAxis { gear: Side::Driver, holes: 0 }));
+    let outside = axis::axis(&two, Side::Follower, Some(Point::new(90.0, 0.0)));
+    assert_eq!(outside, Err(CheckError::AxisOutside { gear: Side::Follower, x: 90.0, y: 0.0 }));
 }
 
 #[test]
@@ -162,5 +162,5 @@ fn gears_out_of_reach_and_numbers_that_are_none_are_refused() {
     }
     let disc = gear(waves(24, 0.0, 0, 24), &[]);
     let options = CheckOptions { center_distance: Some(48.0), ..CheckOptions::default() };
-    assert_eq!(check(&disc, &wave, &options), Err(CheckError::NoTeeth { gear: "driver" }));
+    assert_eq!(check(&disc, &wave, &options), Err(CheckError::NoTeeth { gear: Side::Driver }));
 }

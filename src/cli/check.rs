@@ -8,8 +8,9 @@ use anyhow::Context;
 use centrode::check::{
     CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns,
 };
+use centrode::gear::Side;
 use centrode::meshing::{Direction, DynamicsOptions, Reason, Verdict};
-use centrode::outline::{GearRole, load_toothed};
+use centrode::outline::load_toothed;
 use serde::Serialize;
 
 use super::Outcome;
@@ -38,8 +39,8 @@ pub(crate) fn run(args: &CheckArgs) -> anyhow::Result<Outcome> {
     };
     let progress = Progress::new();
     progress.doing("reading the gears");
-    let driver = load_toothed(&args.driver, GearRole::Driver)?;
-    let follower = load_toothed(&args.follower, GearRole::Follower)?;
+    let driver = load_toothed(&args.driver, Side::Driver)?;
+    let follower = load_toothed(&args.follower, Side::Follower)?;
     progress.doing("checking the pair");
     let report = check(&driver, &follower, &options)?;
     progress.done();

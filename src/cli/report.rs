@@ -7,7 +7,7 @@ use std::time::Duration;
 use centrode::design::{Design, run_record};
 use centrode::meshing::ContactPose;
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section, Verdict};
-use centrode::teeth::{Side, cycle_periods};
+use centrode::teeth::cycle_periods;
 use serde_json::json;
 
 /// Samples of a curve on the page.
@@ -118,10 +118,7 @@ pub(crate) fn summary(
         writeln!(
             out,
             "weakest tooth: number {} of the {}, {:.2} MPa by Lewis's formula under {:.0} N mm",
-            tooth.index,
-            gear_name(tooth.side),
-            tooth.stress,
-            made.strength.load.torque
+            tooth.index, tooth.side, tooth.stress, made.strength.load.torque
         )?;
     }
     for line in made.proof.iter().flat_map(super::proof::lines) {
@@ -330,13 +327,6 @@ fn sections(made: &Design) -> Vec<Section> {
     vec![gears, fit, mesh, strength_section(made)]
 }
 
-fn gear_name(side: Side) -> &'static str {
-    match side {
-        Side::Driver => "driver",
-        Side::Follower => "follower",
-    }
-}
-
 /// Bending of the weakest tooth, power and efficiency.
 fn strength_section(made: &Design) -> Section {
     let strength = &made.strength;
@@ -346,7 +336,7 @@ fn strength_section(made: &Design) -> Section {
         section = section
             .noted_row(
                 "Weakest tooth",
-                format!("number {} of the {}", tooth.index, gear_name(tooth.side)),
+                format!("number {} of the {}", tooth.index, tooth.side),
                 format!(
                     "counter-clockwise from 0; its tip is at ({:.1}, {:.1}) mm, in mesh at {:.0}° of driver turn",
                     tooth.tip.x,

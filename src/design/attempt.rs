@@ -8,6 +8,7 @@ use super::{
 };
 use crate::assembly::{Assembly, Fittings, Gear};
 use crate::fit;
+use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
 use crate::pitch::{Centrodes, Transmission};
@@ -268,10 +269,10 @@ impl Attempt {
                 worst.driver_angle.to_degrees()
             ));
         }
-        for (name, profile) in ["driver", "follower"].into_iter().zip(&self.finished) {
+        for (side, profile) in Side::BOTH.into_iter().zip(&self.finished) {
             if let Some(at) = geometry::first_self_crossing(&profile.points) {
                 faults.push(format!(
-                    "the outline of the {name} crosses itself at ({:.3}, {:.3}); try more teeth or less clearance",
+                    "the outline of the {side} crosses itself at ({:.3}, {:.3}); try more teeth or less clearance",
                     at.x, at.y
                 ));
             }
@@ -364,7 +365,7 @@ impl Attempt {
         ];
         let mut likeness = [None; 2];
         let mut gears = Vec::new();
-        for (i, name) in ["driver", "follower"].into_iter().enumerate() {
+        for (i, side) in Side::BOTH.into_iter().enumerate() {
             let input = source.drawings[i]
                 .map_or_else(Vec::new, |d| placed_input(d.shape, &d.gear, &curves[i]));
             if let Some(drawn) = &source.drawings[i] {
@@ -372,23 +373,23 @@ impl Attempt {
                 likeness[i] = Some(share);
                 if share < policy::POOR_LIKENESS {
                     warnings.push(format!(
-                        "the {name} keeps only {:.0} % of the likeness of {}: the shape is too thin or too deeply cut for a gear",
+                        "the {side} keeps only {:.0} % of the likeness of {}: the shape is too thin or too deeply cut for a gear",
                         100.0 * share,
                         drawn.shape.name
                     ));
                 }
                 if drawn.gear.lost_area > policy::LOST_AREA_WORTH_SAYING {
                     warnings.push(format!(
-                        "bays of {} that the {name}'s axis does not see are filled in, {:.1} % of its area; a shape with shallower bays keeps more",
+                        "bays of {} that the {side}'s axis does not see are filled in, {:.1} % of its area; a shape with shallower bays keeps more",
                         drawn.shape.name,
                         100.0 * drawn.gear.lost_area
                     ));
                 }
             }
             let outline = self.finished[i].points.clone();
-            let bore = bore_for(options, &outline, &mut warnings, name)?;
+            let bore = bore_for(options, &outline, &mut warnings, side.name())?;
             gears.push(Gear {
-                name: name.to_owned(),
+                name: side.to_string(),
                 outline,
                 bore,
                 pitch_curve: curves[i].clone(),

@@ -1,9 +1,10 @@
 //! What may break or bind in a pair that otherwise meshes: found, and named with its place.
 
+use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::pitch::Centrodes;
 use crate::policy;
-use crate::teeth::{Side, ToothRecord, ToothShape, ToothedPair};
+use crate::teeth::{ToothRecord, ToothShape, ToothedPair};
 
 /// How many teeth of one period became what: `[full, steeper, shortened, blunted]`.
 #[must_use]
@@ -26,18 +27,18 @@ pub(super) fn warnings(centrodes: &Centrodes, pair: &ToothedPair, dedendum: f64)
             "{count} of {} teeth are undercut so far that they hand over before the next one takes hold, worst tooth {} of the {} ({:.2} of a pitch)",
             pair.records.len(),
             worst.index,
-            side_name(worst.side),
+            worst.side,
             low(worst)
         ));
     }
     let curves = [
-        ("driver", centrodes.driver_curve(policy::PITCH_CURVE_POINTS)),
-        ("follower", centrodes.follower_curve(policy::PITCH_CURVE_POINTS)),
+        (Side::Driver, centrodes.driver_curve(policy::PITCH_CURVE_POINTS)),
+        (Side::Follower, centrodes.follower_curve(policy::PITCH_CURVE_POINTS)),
     ];
-    for (name, curve) in curves {
+    for (side, curve) in curves {
         if let Some(place) = thin_place(&curve, dedendum + 0.5 * policy::THIN_WALL * pair.module) {
             warnings.push(format!(
-                "the body of the {name} is thinner than {:.2} mm between its roots near ({:.1}, {:.1})",
+                "the body of the {side} is thinner than {:.2} mm between its roots near ({:.1}, {:.1})",
                 policy::THIN_WALL * pair.module,
                 place.x,
                 place.y
@@ -49,13 +50,6 @@ pub(super) fn warnings(centrodes: &Centrodes, pair: &ToothedPair, dedendum: f64)
 
 fn low(record: &ToothRecord) -> f64 {
     record.contact_ratios[0].min(record.contact_ratios[1])
-}
-
-fn side_name(side: Side) -> &'static str {
-    match side {
-        Side::Driver => "driver",
-        Side::Follower => "follower",
-    }
 }
 
 /// Where a body falls apart when `depth` is taken from its rim: between the parts, or its middle when

@@ -5,10 +5,10 @@ use serde::Serialize;
 use super::Design;
 use super::fittings_record::{FittingsRecord, FixtureRecord};
 use crate::assembly::{Assembly, PlacedGear};
+use crate::gear::Side;
 use crate::geometry::Point;
 use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
 use crate::strength::Strength;
-use crate::teeth::Side;
 
 /// The record of one design; field order is the order in the file. Lengths mm, angles radians.
 #[derive(Debug, Serialize)]
@@ -149,7 +149,7 @@ struct StrengthRecord {
 
 #[derive(Debug, Serialize)]
 struct ToothRecord {
-    gear: &'static str,
+    gear: Side,
     /// Counter-clockwise on its gear, from zero.
     index: usize,
     tip: [f64; 2],
@@ -169,10 +169,7 @@ impl StrengthRecord {
             power: strength.power,
             efficiency: strength.efficiency,
             weakest_tooth: strength.weakest().map(|tooth| ToothRecord {
-                gear: match tooth.side {
-                    Side::Driver => "driver",
-                    Side::Follower => "follower",
-                },
+                gear: tooth.side,
                 index: tooth.index,
                 tip: [tooth.tip.x, tooth.tip.y],
                 driver_angle: tooth.driver_angle,

@@ -4,6 +4,7 @@
 use super::outfit::clear_radius;
 use super::{Design, DesignError};
 use crate::assembly::Gear;
+use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::law::Segment;
 use crate::meshing::{ContactOptions, poses_at};
@@ -31,11 +32,9 @@ pub(super) fn cut(made: &mut Design, segment: Segment) -> Result<(), DesignError
             raised + policy::BORE_WALL
         })
     };
-    for (place, placed) in
-        [Place::Driver, Place::Follower].into_iter().zip(&mut made.assembly.gears)
-    {
+    for (side, placed) in Side::BOTH.into_iter().zip(&mut made.assembly.gears) {
         let gear = &mut placed.gear;
-        let Some(cut) = sector(place, gear, &centrodes, &kept, &asked) else {
+        let Some(cut) = sector(side, gear, &centrodes, &kept, &asked) else {
             made.steps.push(format!(
                 "the {} needs nearly all of its turn for the segment and stays whole",
                 gear.name
@@ -102,31 +101,23 @@ fn judge(made: &mut Design, segment: Segment) -> Result<(), DesignError> {
     Ok(())
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Place {
-    Driver,
-    Follower,
-}
-
-impl Place {
-    /// Driver angle at which a point of the gear, in its own frame, faces the mate, the nearest to `near`; and how far
-    /// the point lies outside the pitch curve, mm.
-    fn faces(self, p: Point, centrodes: &Centrodes, near: f64) -> (f64, f64) {
-        let transmission = &centrodes.transmission;
-        let direction = p.y.atan2(p.x);
-        let closest = |angle: f64, to: f64| angle - TAU * ((angle - to) / TAU).round();
-        let (phi, radius) = match self {
-            Self::Driver => {
-                let phi = closest(-direction, near);
-                (phi, centrodes.driver_radius(phi))
-            }
-            Self::Follower => {
-                let phi = transmission.inverse(closest(direction - PI, transmission.psi(near)));
-                (phi, centrodes.follower_radius(phi))
-            }
-        };
-        (phi, p.coords.norm() - radius)
-    }
+/// Driver angle at which a point of the gear, in its own frame, faces the mate, the nearest to `near`; and how far
+/// the point lies outside the pitch curve, mm.
+fn faces(side: Side, p: Point, centrodes: &Centrodes, near: f64) -> (f64, f64) {
+    let transmission = &centrodes.transmission;
+    let direction = p.y.atan2(p.x);
+    let closest = |angle: f64, to: f64| angle - TAU * ((angle - to) / TAU).round();
+    let (phi, radius) = match side {
+        Side::Driver => {
+            let phi = closest(-direction, near);
+            (phi, centrodes.driver_radius(phi))
+        }
+        Side::Follower => {
+            let phi = transmission.inverse(closest(direction - PI, transmission.psi(near)));
+            (phi, centrodes.follower_radius(phi))
+        }
+    };
+    (phi, p.coords.norm() - radius)
 }
 
 /// Driver angles at which the teeth pass the pitch point that are kept, and up to which the cut may lie.
@@ -160,23 +151,23 @@ struct Sector {
 /// The kept teeth, cut off at the deepest points of the tooth spaces beyond them, on a hub; none when the gear needs
 /// nearly its whole turn. `asked` is the least radius of the hub for what a bore of given radius asks for, mm.
 fn sector(
-    place: Place,
+    side: Side,
     gear: &Gear,
     centrodes: &Centrodes,
     kept: &Kept,
     asked: &dyn Fn(f64) -> f64,
 ) -> Option<Sector> {
     let transmission = &centrodes.transmission;
-    let turn = match place {
-        Place::Driver => kept.outer[1] - kept.outer[0],
-        Place::Follower => transmission.psi(kept.outer[1]) - transmission.psi(kept.outer[0]),
+    let turn = match side {
+        Side::Driver => kept.outer[1] - kept.outer[0],
+        Side::Follower => transmission.psi(kept.outer[1]) - transmission.psi(kept.outer[0]),
     };
     if turn > policy::SECTOR_MOST_TURN * TAU {
         return None;
     }
     let outline = &gear.outline;
     let at: Vec<(f64, f64)> =
-        outline.iter().map(|p| place.faces(*p, centrodes, kept.middle())).collect();
+        outline.iter().map(|p| faces(side, *p, centrodes, kept.middle())).collect();
     let deepest = |from: f64, to: f64| {
         let between = (0..at.len()).filter(|&i| (from..=to).contains(&at[i].0));
         between.min_by(|&a, &b| at[a].1.total_cmp(&at[b].1))
@@ -184,9 +175,9 @@ fn sector(
     let low = deepest(kept.outer[0], kept.inner[0])?;
     let high = deepest(kept.inner[1], kept.outer[1])?;
     // Counter-clockwise the driver's own angles fall with phi, the follower's rise.
-    let (first, last) = match place {
-        Place::Driver => (high, low),
-        Place::Follower => (low, high),
+    let (first, last) = match side {
+        Side::Driver => (high, low),
+        Side::Follower => (low, high),
     };
     let count = (last + outline.len() - first) % outline.len();
     let mut ring: Vec<Point> = (0..=count).map(|k| outline[(first + k) % outline.len()]).collect();

@@ -8,7 +8,8 @@ use serde::Deserialize;
 
 use super::saved::bounded_text;
 use super::{SavedDesign, SavedError};
-use crate::assembly::{Link, MotionError, PairModel, Role, TrainGear, TrainPlan};
+use crate::assembly::{Link, MotionError, PairModel, TrainGear, TrainPlan};
+use crate::gear::Side;
 use crate::policy;
 use crate::wording::quoted;
 
@@ -51,7 +52,7 @@ impl SavedDesign {
     /// See [`MotionError`].
     pub fn pair_model(&self) -> Result<PairModel, MotionError> {
         Ok(PairModel {
-            gears: self.gears.clone(),
+            gears: self.gears.clone().into(),
             motion: self.motion()?,
             center_distance: self.center_distance,
             module: self.module,
@@ -78,7 +79,7 @@ struct FilePair {
 struct FileGear {
     name: String,
     pair: String,
-    role: FileRole,
+    role: Side,
     /// The gear it meshes with.
     on: Option<String>,
     /// Direction of the line of centres from that gear, degrees.
@@ -92,13 +93,6 @@ struct FileGear {
     /// Turn against that gear, degrees.
     #[serde(default)]
     turn: f64,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum FileRole {
-    Driver,
-    Follower,
 }
 
 /// Reads a train's TOML file and the designs that it names.
@@ -184,11 +178,7 @@ pub fn train_from_toml(text: &str, path: &Path) -> Result<TrainPlan, TrainFileEr
                 names.join(", ")
             ))
         })?;
-        let role = match gear.role {
-            FileRole::Driver => Role::Driver,
-            FileRole::Follower => Role::Follower,
-        };
-        gears.push(TrainGear { name: gear.name.clone(), pair, role, link });
+        gears.push(TrainGear { name: gear.name.clone(), pair, side: gear.role, link });
     }
     Ok(TrainPlan { pairs, gears, closing: Vec::new(), thickness })
 }

@@ -10,10 +10,10 @@
 use rayon::prelude::*;
 
 use super::align::{Aligner, LongSpectrum, ShortSpectrum};
-use super::laws::Role;
 use super::limits::{Limits, apply};
 use super::objective::{Candidate, Problem, greatest};
 use super::{paper_search, refine};
+use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::policy;
 
@@ -124,34 +124,34 @@ fn refined(
 fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
     let aligner = Aligner::new(problem.samples, problem.windows());
     let mean = 1.0 / problem.ratio.value();
-    let (short_role, long_role) = match problem.short_role() {
-        Role::Driver => (Role::Driver, Role::Follower),
-        Role::Follower => (Role::Follower, Role::Driver),
+    let (short_side, long_side) = match problem.short_side() {
+        Side::Driver => (Side::Driver, Side::Follower),
+        Side::Follower => (Side::Follower, Side::Driver),
     };
-    let points = |role| if role == Role::Driver { problem.driver } else { problem.follower };
-    let grid = |role| {
-        let (grid, spacing) = interior_grid(points(role), policy::GRID_CENTERS);
-        (problem.fixed.axis(role).map_or(grid, |axis| vec![axis]), spacing)
+    let points = |side| if side == Side::Driver { problem.driver } else { problem.follower };
+    let grid = |side| {
+        let (grid, spacing) = interior_grid(points(side), policy::GRID_CENTERS);
+        (problem.fixed.axis(side).map_or(grid, |axis| vec![axis]), spacing)
     };
-    let (short_grid, short_spacing) = grid(short_role);
-    let (long_grid, long_spacing) = grid(long_role);
+    let (short_grid, short_spacing) = grid(short_side);
+    let (long_grid, long_spacing) = grid(long_side);
     let shorts: Vec<(Point, ShortSpectrum, f64)> = short_grid
         .into_par_iter()
         .filter_map(|c| {
-            let (law, lost) = problem.whole_turn(short_role, c).ok()?;
-            Some((c, aligner.short(law), problem.lost_cost(short_role, lost)))
+            let (law, lost) = problem.whole_turn(short_side, c).ok()?;
+            Some((c, aligner.short(law), problem.lost_cost(short_side, lost)))
         })
         .collect();
     let longs: Vec<(Point, LongSpectrum, f64)> = long_grid
         .into_par_iter()
         .filter_map(|c| {
-            let (law, lost) = problem.whole_turn(long_role, c).ok()?;
-            Some((c, aligner.long(law, mean, true), problem.lost_cost(long_role, lost)))
+            let (law, lost) = problem.whole_turn(long_side, c).ok()?;
+            Some((c, aligner.long(law, mean, true), problem.lost_cost(long_side, lost)))
         })
         .collect();
-    let followers: Vec<Point> = match short_role {
-        Role::Driver => longs.iter().map(|l| l.0).collect(),
-        Role::Follower => shorts.iter().map(|s| s.0).collect(),
+    let followers: Vec<Point> = match short_side {
+        Side::Driver => longs.iter().map(|l| l.0).collect(),
+        Side::Follower => shorts.iter().map(|s| s.0).collect(),
     };
     let shifts: Vec<Option<usize>> =
         followers.par_iter().map(|f| problem.fixed_shift_samples(*f)).collect();
@@ -163,7 +163,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
             |scratch, (i, (_, short, short_lost))| {
                 let mut row: Vec<Pair> = Vec::new();
                 for (j, (_, long, long_lost)) in longs.iter().enumerate() {
-                    let follower = if short_role == Role::Driver { j } else { i };
+                    let follower = if short_side == Side::Driver { j } else { i };
                     let at = match shifts[follower] {
                         Some(shift) => aligner.at(short, long, shift),
                         None => aligner.best(short, long, 1, scratch),
@@ -232,14 +232,14 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
     }
     let candidates = kept.into_iter().map(|(short, long, shift)| {
         let shift = shift as f64 * problem.step();
-        problem.pinned(match short_role {
-            Role::Driver => Candidate { driver: short, follower: long, shift },
-            Role::Follower => Candidate { driver: long, follower: short, shift },
+        problem.pinned(match short_side {
+            Side::Driver => Candidate { driver: short, follower: long, shift },
+            Side::Follower => Candidate { driver: long, follower: short, shift },
         })
     });
-    let spacing = match short_role {
-        Role::Driver => (short_spacing, long_spacing),
-        Role::Follower => (long_spacing, short_spacing),
+    let spacing = match short_side {
+        Side::Driver => (short_spacing, long_spacing),
+        Side::Follower => (long_spacing, short_spacing),
     };
     (candidates.collect(), shorts.len() * longs.len(), spacing)
 }

@@ -7,15 +7,9 @@
 use std::f64::consts::TAU;
 
 use super::Ratio;
+use crate::gear::Side;
 use crate::geometry::{Point, Vector};
 use crate::pitch::{PolarCurve, PolarError, center_distance, driver_law, follower_law};
-
-/// Which gear of the pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
-    Driver,
-    Follower,
-}
 
 /// Unit vectors at even directions.
 pub(super) fn directions(n: usize) -> Vec<Vector> {
@@ -32,7 +26,7 @@ pub(super) fn directions(n: usize) -> Vec<Vector> {
 /// Between its samples a law is linear in the gear's own angle, so it is positive wherever its radii are.
 #[derive(Clone, Debug)]
 pub(super) struct Law {
-    role: Role,
+    side: Side,
     /// Driver: psi' at even driver angles. Follower: d phi_D / d phi_F at even follower angles.
     own: Vec<f64>,
     /// Driver angle of one own turn.
@@ -46,20 +40,20 @@ impl Law {
         points: &[Point],
         center: Point,
         directions: &[Vector],
-        role: Role,
+        side: Side,
         ratio: Ratio,
     ) -> Result<Self, PolarError> {
         let curve = PolarCurve::along(points, center, directions)?;
-        let (own, turn) = match role {
-            Role::Driver => {
+        let (own, turn) = match side {
+            Side::Driver => {
                 (driver_law(curve.radii(), center_distance(curve.radii(), ratio.value())), TAU)
             }
-            Role::Follower => {
+            Side::Follower => {
                 let l = center_distance(curve.radii(), 1.0 / ratio.value());
                 (follower_law(curve.radii(), l), TAU * ratio.value())
             }
         };
-        Ok(Self { role, own, turn, lost_area: curve.lost_area() })
+        Ok(Self { side, own, turn, lost_area: curve.lost_area() })
     }
 
     /// psi' at the `n` driver angles `start + i turn / per_turn`.
@@ -78,7 +72,7 @@ impl Law {
 
     /// Driver angle, within one own turn, at which the own direction `direction` is at the pitch point.
     pub(super) fn moment_of(&self, direction: f64) -> f64 {
-        if self.role == Role::Driver {
+        if self.side == Side::Driver {
             return (-direction).rem_euclid(TAU);
         }
         let n = self.own.len();
@@ -115,7 +109,7 @@ impl Walk<'_> {
         let n = law.own.len();
         let x = self.start + ahead;
         let own_step = TAU / n as f64;
-        if law.role == Role::Driver {
+        if law.side == Side::Driver {
             let u = x / own_step;
             let i = u.floor();
             let t = u - i;
@@ -168,14 +162,14 @@ mod tests {
         let rays = directions(2048);
         let curve = PolarCurve::about(&egg(), Point::origin(), 2048).unwrap();
         let law =
-            Law::new(&egg(), Point::origin(), &rays, Role::Driver, Ratio::integer(2).unwrap())
+            Law::new(&egg(), Point::origin(), &rays, Side::Driver, Ratio::integer(2).unwrap())
                 .unwrap();
         let exact = Transmission::from_polar(&curve, 2).unwrap();
         for (i, v) in law.sample(0.3, 900, 777).iter().enumerate() {
             assert!((v - exact.derivative(0.3 + TAU * i as f64 / 777.0)).abs() < 1e-4);
         }
         let law =
-            Law::new(&egg(), Point::origin(), &rays, Role::Follower, Ratio::reciprocal(3).unwrap())
+            Law::new(&egg(), Point::origin(), &rays, Side::Follower, Ratio::reciprocal(3).unwrap())
                 .unwrap();
         let exact = Transmission::from_follower(&curve, 3).unwrap();
         let step = TAU / 3.0 / 500.0;

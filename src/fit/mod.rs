@@ -28,6 +28,7 @@ pub use polish::Refinement;
 pub use ratio::{Ratio, RatioError};
 pub use symmetric::{Symmetric, symmetrised};
 
+use crate::gear::Side;
 use crate::outline::Outline;
 use crate::pitch::{PolarError, Transmission, TransmissionError};
 use crate::policy;
@@ -211,12 +212,11 @@ pub fn fit(
         options.samples,
     )
     .with_fixed(options.fixed);
-    for (role, axis) in [
-        (laws::Role::Driver, options.fixed.driver_axis),
-        (laws::Role::Follower, options.fixed.follower_axis),
-    ] {
+    for (side, axis) in
+        [(Side::Driver, options.fixed.driver_axis), (Side::Follower, options.fixed.follower_axis)]
+    {
         if let Some(axis) = axis {
-            problem.law(role, axis)?;
+            problem.law(side, axis)?;
         }
     }
     // Impossible limits should be said at once, not found in every candidate.

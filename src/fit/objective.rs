@@ -2,9 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::laws::{Law, Role, directions};
+use super::laws::{Law, directions};
 use super::limits::{LimitCost, Limits, apply};
 use super::{FitError, Ratio};
+use crate::gear::Side;
 use crate::geometry::{Point, Vector};
 use crate::pitch::PolarError;
 
@@ -36,10 +37,10 @@ impl Fixed {
             && self.orientation.is_none_or(f64::is_finite)
     }
 
-    pub(super) fn axis(&self, role: Role) -> Option<Point> {
-        match role {
-            Role::Driver => self.driver_axis,
-            Role::Follower => self.follower_axis,
+    pub(super) fn axis(&self, side: Side) -> Option<Point> {
+        match side {
+            Side::Driver => self.driver_axis,
+            Side::Follower => self.follower_axis,
         }
     }
 }
@@ -158,10 +159,10 @@ impl<'a> Problem<'a> {
     /// The shift that lets the follower's drawing begin at the fixed orientation, if there is one.
     pub(super) fn fixed_shift(&self, follower: Point) -> Option<f64> {
         let angle = self.fixed.orientation?;
-        let moment = self.law(Role::Follower, follower).ok()?.moment_of(PI - angle);
-        Some(match self.short_role() {
-            Role::Driver => moment,
-            Role::Follower => (-moment).rem_euclid(TAU),
+        let moment = self.law(Side::Follower, follower).ok()?.moment_of(PI - angle);
+        Some(match self.short_side() {
+            Side::Driver => moment,
+            Side::Follower => (-moment).rem_euclid(TAU),
         })
     }
 
@@ -177,8 +178,8 @@ impl<'a> Problem<'a> {
     }
 
     /// What the loss of a share of one drawing's area counts.
-    pub(super) fn lost_cost(&self, role: Role, lost_area: f64) -> f64 {
-        let share = if role == Role::Driver { self.balance } else { 1.0 - self.balance };
+    pub(super) fn lost_cost(&self, side: Side, lost_area: f64) -> f64 {
+        let share = if side == Side::Driver { self.balance } else { 1.0 - self.balance };
         self.star_weight * share * lost_area
     }
 
@@ -188,8 +189,8 @@ impl<'a> Problem<'a> {
     }
 
     /// Which gear turns once a period.
-    pub(super) fn short_role(&self) -> Role {
-        if self.ratio.driver_fold() == 1 { Role::Driver } else { Role::Follower }
+    pub(super) fn short_side(&self) -> Side {
+        if self.ratio.driver_fold() == 1 { Side::Driver } else { Side::Follower }
     }
 
     /// Driver angle of one sample step.
@@ -201,41 +202,41 @@ impl<'a> Problem<'a> {
         (self.ratio.driver_fold(), self.ratio.follower_fold())
     }
 
-    pub(super) fn law(&self, role: Role, center: Point) -> Result<Law, PolarError> {
-        let (points, rays) = match role {
-            Role::Driver => (self.driver, &self.driver_rays),
-            Role::Follower => (self.follower, &self.follower_rays),
+    pub(super) fn law(&self, side: Side, center: Point) -> Result<Law, PolarError> {
+        let (points, rays) = match side {
+            Side::Driver => (self.driver, &self.driver_rays),
+            Side::Follower => (self.follower, &self.follower_rays),
         };
-        Law::new(points, center, rays, role, self.ratio)
+        Law::new(points, center, rays, side, self.ratio)
     }
 
     /// Samples of psi' over the gear's whole turn, and the share of area that the centre loses.
     pub(super) fn whole_turn(
         &self,
-        role: Role,
+        side: Side,
         center: Point,
     ) -> Result<(Vec<f64>, f64), PolarError> {
-        let fold = if role == self.short_role() { 1 } else { self.windows() };
+        let fold = if side == self.short_side() { 1 } else { self.windows() };
         let n = self.samples * fold;
-        let law = self.law(role, center)?;
+        let law = self.law(side, center)?;
         Ok((law.sample(0.0, n, n), law.lost_area))
     }
 
     /// Eq. 14 on samples of the short law and the (scaled) window of the long one.
     pub(super) fn blend(&self, short: &[f64], window: impl Iterator<Item = f64>) -> Vec<f64> {
         let share =
-            if self.short_role() == Role::Driver { self.balance } else { 1.0 - self.balance };
+            if self.short_side() == Side::Driver { self.balance } else { 1.0 - self.balance };
         short.iter().zip(window).map(|(a, b)| share * a + (1.0 - share) * b).collect()
     }
 
     /// Works a candidate out.
     pub(super) fn score(&self, candidate: &Candidate) -> Result<Scored, FitError> {
-        let driver = self.law(Role::Driver, candidate.driver)?;
-        let follower = self.law(Role::Follower, candidate.follower)?;
+        let driver = self.law(Side::Driver, candidate.driver)?;
+        let follower = self.law(Side::Follower, candidate.follower)?;
         let n = self.samples;
         let whole = n * self.windows();
         let mean = 1.0 / self.ratio.value();
-        let (short, long) = if self.short_role() == Role::Driver {
+        let (short, long) = if self.short_side() == Side::Driver {
             (&driver, &follower)
         } else {
             (&follower, &driver)
@@ -248,8 +249,8 @@ impl<'a> Problem<'a> {
             short.iter().zip(&window).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() * TAU / n as f64;
         let blend = self.blend(&short, window.into_iter());
         let (limited, cost) = apply(&blend, self.folds(), self.limits)?;
-        let lost = self.lost_cost(Role::Driver, driver.lost_area)
-            + self.lost_cost(Role::Follower, follower.lost_area);
+        let lost = self.lost_cost(Side::Driver, driver.lost_area)
+            + self.lost_cost(Side::Follower, follower.lost_area);
         Ok(Scored {
             objective: self.objective(delta, (folding, lost), &cost),
             blend,

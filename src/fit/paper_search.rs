@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::align::{Aligner, LongSpectrum, ShortSpectrum};
-use super::laws::Role;
 use super::objective::{Candidate, Problem, greatest};
+use crate::gear::Side;
 use crate::geometry::{Point, Vector, bounds};
 use crate::policy;
 
@@ -43,27 +43,27 @@ pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
     let whole = problem.samples * problem.windows();
     let stride = (whole / policy::PAPER_SHIFTS).max(1);
     let mean = 1.0 / problem.ratio.value();
-    let (short_role, long_role) = match problem.short_role() {
-        Role::Driver => (Role::Driver, Role::Follower),
-        Role::Follower => (Role::Follower, Role::Driver),
+    let (short_side, long_side) = match problem.short_side() {
+        Side::Driver => (Side::Driver, Side::Follower),
+        Side::Follower => (Side::Follower, Side::Driver),
     };
-    let points = |role| if role == Role::Driver { problem.driver } else { problem.follower };
-    let box_of = |role| {
-        if let Some(low) = problem.fixed.axis(role) {
+    let points = |side| if side == Side::Driver { problem.driver } else { problem.follower };
+    let box_of = |side| {
+        if let Some(low) = problem.fixed.axis(side) {
             return vec![Cell { low, size: Vector::zeros() }];
         }
-        let (low, high) = bounds(points(role));
+        let (low, high) = bounds(points(side));
         vec![Cell { low, size: high - low }]
     };
-    let mut parents = (box_of(short_role), box_of(long_role));
+    let mut parents = (box_of(short_side), box_of(long_side));
     let mut best: Vec<(f64, Cell, Cell, usize)> = Vec::new();
     let mut scored = 0;
     for _ in 0..policy::PAPER_DEPTH {
         let shorts: Vec<Seat<ShortSpectrum>> = seats(&parents.0, |c| {
-            problem.whole_turn(short_role, c).ok().map(|(law, _)| aligner.short(law))
+            problem.whole_turn(short_side, c).ok().map(|(law, _)| aligner.short(law))
         });
         let longs: Vec<Seat<LongSpectrum>> = seats(&parents.1, |c| {
-            problem.whole_turn(long_role, c).ok().map(|(law, _)| aligner.long(law, mean, false))
+            problem.whole_turn(long_side, c).ok().map(|(law, _)| aligner.long(law, mean, false))
         });
         scored += shorts.len() * longs.len();
         let found: Vec<(f64, Cell, Cell, usize)> = shorts
@@ -74,9 +74,9 @@ pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
                     longs
                         .iter()
                         .map(|long| {
-                            let follower = match short_role {
-                                Role::Driver => long.cell.center(),
-                                Role::Follower => short.cell.center(),
+                            let follower = match short_side {
+                                Side::Driver => long.cell.center(),
+                                Side::Follower => short.cell.center(),
                             };
                             let at = match problem.fixed_shift_samples(follower) {
                                 Some(shift) => aligner.at(&short.spectrum, &long.spectrum, shift),
@@ -109,9 +109,9 @@ pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
     let candidates = best.iter().map(|(_, short, long, shift)| {
         let shift = *shift as f64 * problem.step();
         let (short, long) = (short.center(), long.center());
-        problem.pinned(match short_role {
-            Role::Driver => Candidate { driver: short, follower: long, shift },
-            Role::Follower => Candidate { driver: long, follower: short, shift },
+        problem.pinned(match short_side {
+            Side::Driver => Candidate { driver: short, follower: long, shift },
+            Side::Follower => Candidate { driver: long, follower: short, shift },
         })
     });
     (candidates.collect(), scored)

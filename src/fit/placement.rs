@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::laws::Role;
 use super::objective::{Candidate, Problem, Scored};
 use super::{Fit, FitError};
+use crate::gear::Side;
 use crate::geometry::{self, Point, rotate};
 use crate::pitch::{Centrodes, PolarCurve, Transmission};
 use crate::policy;
@@ -56,7 +56,7 @@ pub(super) fn place(
                 break;
             }
             // The drawing turns by 1 / K for each radian that its law is shifted by.
-            let way = if problem.short_role() == Role::Driver { 1.0 } else { -1.0 };
+            let way = if problem.short_side() == Side::Driver { 1.0 } else { -1.0 };
             candidate.shift += way * off * problem.ratio.value();
             begun = Begun::new(problem, &candidate)?;
         }
@@ -119,7 +119,7 @@ impl Begun {
         let (driver_fold, follower_fold) = problem.folds();
         let window = Transmission::from_derivative(&scored.limited, driver_fold, follower_fold)?;
         // In the window's angles the driver's own direction is -shift at 0 when the driver is the long gear.
-        let start = if problem.short_role() == Role::Driver { 0.0 } else { candidate.shift };
+        let start = if problem.short_side() == Side::Driver { 0.0 } else { candidate.shift };
         let transmission = if start == 0.0 { window } else { window.shifted(-start) };
         let centrodes = Centrodes { transmission, center_distance: 1.0 };
         let follower_angle = follower_angle(problem, candidate, &scored, &centrodes, start);
@@ -146,9 +146,9 @@ fn follower_angle(
     start: f64,
 ) -> f64 {
     let n = problem.samples;
-    let (from, per_turn) = match problem.short_role() {
-        Role::Driver => (candidate.shift, n * problem.windows()),
-        Role::Follower => (0.0, n),
+    let (from, per_turn) = match problem.short_side() {
+        Side::Driver => (candidate.shift, n * problem.windows()),
+        Side::Follower => (0.0, n),
     };
     let directions = scored.follower_law.directions_at(from, n, per_turn);
     let (mut sin, mut cos) = (0.0, 0.0);

@@ -9,6 +9,7 @@
 
 use super::play::{Body, Play, Pose, Touch, free_play};
 use super::summary::ContactSummary;
+use crate::gear::Side;
 use crate::geometry::{Point, Vector, cross, perimeter};
 use crate::policy;
 use rayon::prelude::*;
@@ -73,16 +74,16 @@ pub enum ContactError {
     /// An outline has no area.
     #[error("the {gear} has {count} points; give an outline of at least three")]
     TooFewPoints {
-        /// `driver` or `follower`.
-        gear: &'static str,
+        /// Which gear.
+        gear: Side,
         /// Points given.
         count: usize,
     },
     /// A coordinate is NaN or infinite.
     #[error("point {index} of the {gear} is not a finite number; correct it")]
     NotFinite {
-        /// `driver` or `follower`.
-        gear: &'static str,
+        /// Which gear.
+        gear: Side,
         /// Index of the point, from zero.
         index: usize,
     },
@@ -235,7 +236,7 @@ pub fn poses_at(
 }
 
 fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), ContactError> {
-    for (gear, outline) in [("driver", input.driver), ("follower", input.follower)] {
+    for (gear, outline) in [(Side::Driver, input.driver), (Side::Follower, input.follower)] {
         if outline.len() < 3 {
             return Err(ContactError::TooFewPoints { gear, count: outline.len() });
         }

@@ -237,9 +237,12 @@ fn bad_input_is_refused() {
     };
     assert_eq!(
         run(&good[..2], 2.0, 1.0),
-        Err(ContactError::TooFewPoints { gear: "driver", count: 2 })
+        Err(ContactError::TooFewPoints { gear: Side::Driver, count: 2 })
     );
-    assert_eq!(run(&broken, 2.0, 1.0), Err(ContactError::NotFinite { gear: "driver", index: 7 }));
+    assert_eq!(
+        run(&broken, 2.0, 1.0),
+        Err(ContactError::NotFinite { gear: Side::Driver, index: 7 })
+    );
     assert!(matches!(run(&good, 0.0, 1.0), Err(ContactError::NotPositive { .. })));
     assert!(matches!(run(&good, 2.0, -1.0), Err(ContactError::BadMotion { .. })));
 }

@@ -11,6 +11,7 @@ use super::recorder::Recorder;
 use super::summary::WorstPlace;
 use super::touches::Touches;
 use super::world::{World, WorldGear, WorldInput};
+use crate::gear::Side;
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 use std::f64::consts::TAU;
@@ -92,7 +93,7 @@ pub enum DynamicsError {
     #[error("the {gear}: {source}")]
     Partition {
         /// `driver` or `follower`.
-        gear: &'static str,
+        gear: Side,
         /// What is wrong with it.
         source: PartitionError,
     },
@@ -339,7 +340,7 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
         motor,
     })
     .map_err(|(number, source)| DynamicsError::Partition {
-        gear: ["driver", "follower"][number.min(1)],
+        gear: Side::BOTH[number.min(1)],
         source,
     })?;
     let mut recorder = Recorder::new(pair, options);

@@ -8,6 +8,7 @@ use super::dynamics::{
 use super::recorder::averaged;
 use super::world::{World, WorldGear, WorldInput};
 use crate::assembly::{Assembly, MotionError, PlacedGear, SampledMotion};
+use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::policy;
 use std::f64::consts::{PI, TAU};
@@ -293,7 +294,7 @@ pub fn simulate_train(
         motor,
     })
     .map_err(|(number, source)| DynamicsError::Partition {
-        gear: if number == 0 { "driver" } else { "follower" },
+        gear: Side::BOTH[number.min(1)],
         source,
     })?;
     let mut steps: Vec<TrainStep> = Vec::new();
@@ -512,6 +513,7 @@ mod tests {
     use super::super::spur::Spur;
     use super::*;
     use crate::assembly::{Gear, Layout, PairModel, TrainPlan};
+    use crate::gear::Pair;
 
     /// Two spur gears with involute teeth, as a pair.
     fn pair() -> PairModel {
@@ -531,7 +533,10 @@ mod tests {
             teeth: spur.teeth,
         };
         PairModel {
-            gears: [gear("driver", 0.0), gear("follower", PI + PI / f64::from(spur.teeth))],
+            gears: Pair::new(
+                gear("driver", 0.0),
+                gear("follower", PI + PI / f64::from(spur.teeth)),
+            ),
             motion: SampledMotion::new(&angles, &angles).unwrap(),
             center_distance: 2.0 * spur.radius(),
             module: spur.module,

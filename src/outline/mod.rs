@@ -23,9 +23,7 @@ pub use silhouette::{ImageError, from_image};
 pub use simplify::simplify;
 pub use smooth::{Smoothing, resample, smooth};
 pub use svg::{SvgError, from_svg};
-pub use toothed::{
-    GearRole, PairRecord, Thinned, Toothed, ToothedError, load_toothed, toothed_from_bytes,
-};
+pub use toothed::{PairRecord, Thinned, Toothed, ToothedError, load_toothed, toothed_from_bytes};
 
 use crate::geometry::{self, Point};
 use crate::policy;

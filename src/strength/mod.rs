@@ -9,10 +9,11 @@ pub use tooth::{FormFactor, form_factors};
 
 use std::f64::consts::{PI, TAU};
 
+use crate::gear::Side;
 use crate::geometry::Point;
 use crate::pitch::Centrodes;
 use crate::policy;
-use crate::teeth::{Profile, Side};
+use crate::teeth::Profile;
 
 /// What the pair carries, and what it is like. Lengths in mm, torque in N mm, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +111,7 @@ pub fn strength(loaded: &Loaded<'_>) -> Strength {
     let force =
         |phi: f64| load.torque * pressure_angle.cos() / (centrodes.follower_radius(phi) * arm(phi));
     let mut teeth = Vec::new();
-    for (side, profile) in [Side::Driver, Side::Follower].into_iter().zip(loaded.profiles) {
+    for (side, profile) in Side::BOTH.into_iter().zip(loaded.profiles) {
         let places = pitch_places(centrodes, side);
         let factors = form_factors(profile, module);
         teeth.extend(factors.iter().map(|factor| {

@@ -11,7 +11,8 @@
 
 use rayon::prelude::*;
 
-use super::rolling::{Instant, Rolling, Side};
+use super::rolling::{Instant, Rolling};
+use crate::gear::Side;
 use crate::geometry::{self, Point, Vector, cross, quarter_turn};
 use crate::outline::simplify;
 use crate::policy;

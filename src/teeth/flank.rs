@@ -13,7 +13,8 @@
 //! `sin(alpha) - delta kappa_F cos(alpha)`, where `delta = sigma (u - s)`: positive above the
 //! driver's pitch curve, negative below. Where either vanishes that flank has a cusp (undercut).
 
-use super::rolling::{Instant, Rolling, Side};
+use super::rolling::{Instant, Rolling};
+use crate::gear::Side;
 use crate::geometry::Point;
 use crate::policy;
 

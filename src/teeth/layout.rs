@@ -9,7 +9,8 @@
 use rayon::prelude::*;
 
 use super::flank::{Flank, longest_reach};
-use super::rolling::{Rolling, Side};
+use super::rolling::Rolling;
+use crate::gear::Side;
 use crate::policy;
 
 /// What the rack looks like. Lengths in mm, angles in radians.
@@ -44,7 +45,7 @@ impl Layout {
             })
             .collect();
         let period = rolling.period();
-        for side in [Side::Driver, Side::Follower] {
+        for side in Side::BOTH {
             let shortened: Vec<(usize, usize, f64)> = teeth_of(side, teeth)
                 .into_par_iter()
                 .map(|(a, b)| (a, b, blunting(rolling, rack, &tooth(&flanks, period, a, b), side)))
@@ -112,7 +113,7 @@ fn choose_pressure_angle(rolling: &Rolling<'_>, rack: &Rack, u: f64, sigma: f64)
     for i in 0..=count {
         let alpha = rack.pressure_angle + span * f64::from(i) / f64::from(steps);
         let mut flank = Flank::new(u, sigma, alpha);
-        for side in [Side::Driver, Side::Follower] {
+        for side in Side::BOTH {
             let reach = longest_reach(rolling, &flank, side, rack.addendum);
             flank.set_reach(side, reach);
         }

@@ -14,9 +14,9 @@ mod wave;
 pub use profile::{EdgeKind, Profile};
 pub use record::{ToothRecord, ToothShape};
 pub use relief::{Relieved, relieved};
-pub use rolling::Side;
 pub use wave::{regular_wave_pair, wave_pair};
 
+use crate::gear::Side;
 use crate::geometry::Point;
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
@@ -93,7 +93,7 @@ pub enum TeethError {
     )]
     Tangled {
         /// Which gear.
-        gear: &'static str,
+        gear: Side,
     },
     /// The clearance eats up a gear.
     #[error("a clearance of {clearance} mm leaves nothing of a gear; give less, or a larger pair")]
@@ -136,13 +136,13 @@ pub fn involute_pair(
     };
     let layout = Layout::new(&rolling, &rack, teeth);
     let tolerance = options.chord_tolerance * module;
-    let gear = |side, folds, name| {
+    let gear = |side, folds| {
         gear_profile(&rolling, &layout, &rack, side, folds, options.backlash, tolerance)
             .untangled()
-            .ok_or(TeethError::Tangled { gear: name })
+            .ok_or(TeethError::Tangled { gear: side })
     };
-    let driver = gear(Side::Driver, folds, "driver")?;
-    let follower = gear(Side::Follower, centrodes.transmission.follower_fold(), "follower")?;
+    let driver = gear(Side::Driver, folds)?;
+    let follower = gear(Side::Follower, centrodes.transmission.follower_fold())?;
     let (follower, cuts) = carve_rest(&rolling, &driver, follower, module, teeth)?;
     let records = record::records(&rolling, &layout, &rack);
     Ok(ToothedPair { driver, follower, module, uncovered: layout.uncovered(), cuts, records })
@@ -157,7 +157,7 @@ fn carve_rest(
     teeth: usize,
 ) -> Result<(Profile, usize), TeethError> {
     let tangled = |gear| TeethError::Tangled { gear };
-    let tool = driver.inset(policy::CARVE_SKIN * module).ok_or(tangled("driver"))?;
+    let tool = driver.inset(policy::CARVE_SKIN * module).ok_or(tangled(Side::Driver))?;
     let periods = rolling.cycle_periods();
     let carved = carve::carve(
         rolling,
@@ -168,7 +168,7 @@ fn carve_rest(
         policy::CARVE_DEPTH * module,
         true,
     )
-    .ok_or(tangled("follower"))?;
+    .ok_or(tangled(Side::Follower))?;
     if carved.cuts == 0 {
         return Ok((follower, 0));
     }

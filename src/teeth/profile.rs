@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use super::flank::Flank;
 use super::layout::{Layout, Rack};
-use super::rolling::{Rolling, Side};
+use super::rolling::Rolling;
 use super::root::{cap, root_curve};
+use crate::gear::Side;
 use crate::geometry::{Point, rotate};
 use crate::policy;
 

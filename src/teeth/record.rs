@@ -2,7 +2,8 @@
 
 use super::flank::Flank;
 use super::layout::{Layout, Rack};
-use super::rolling::{Rolling, Side};
+use super::rolling::Rolling;
+use crate::gear::Side;
 use crate::policy;
 
 /// How a tooth differs from the rack's.
@@ -39,7 +40,7 @@ pub struct ToothRecord {
 
 /// The record of every tooth of one period, driver first.
 pub(crate) fn records(rolling: &Rolling<'_>, layout: &Layout, rack: &Rack) -> Vec<ToothRecord> {
-    [Side::Driver, Side::Follower]
+    Side::BOTH
         .into_iter()
         .flat_map(|side| {
             layout

@@ -5,38 +5,10 @@
 //! counter-clockwise. All frames follow `Centrodes`: world x axis along the
 //! line of centres, driver axis at the origin, follower axis at (L, 0).
 
+use crate::gear::Side;
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::pitch::Centrodes;
 use crate::policy;
-
-/// Which gear of the pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The gear that is turned.
-    Driver,
-    /// The gear that answers.
-    Follower,
-}
-
-impl Side {
-    /// The other gear.
-    #[must_use]
-    pub fn partner(self) -> Self {
-        match self {
-            Self::Driver => Self::Follower,
-            Self::Follower => Self::Driver,
-        }
-    }
-
-    /// +1 for the driver, whose outward normal the rack height is measured along; -1 for the follower.
-    #[must_use]
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Driver => 1.0,
-            Self::Follower => -1.0,
-        }
-    }
-}
 
 /// One instant of rolling, in world coordinates.
 #[derive(Clone, Copy, Debug)]

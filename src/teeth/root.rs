@@ -8,7 +8,8 @@
 
 use super::flank::Flank;
 use super::layout::Rack;
-use super::rolling::{Rolling, Side};
+use super::rolling::Rolling;
+use crate::gear::Side;
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 

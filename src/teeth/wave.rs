@@ -2,8 +2,9 @@
 
 use super::carve::carve;
 use super::profile::{EdgeKind, Profile};
-use super::rolling::{Rolling, Side};
+use super::rolling::Rolling;
 use super::{TeethError, TeethOptions, ToothedPair, cycle_periods};
+use crate::gear::Side;
 use crate::geometry::{Point, rotate};
 use crate::pitch::Centrodes;
 use crate::policy;
@@ -82,8 +83,8 @@ fn carved_waves(
         let kinds = vec![EdgeKind::Flank; points.len()];
         Profile { points, kinds }
     };
-    let driver = label(driver).untangled().ok_or(TeethError::Tangled { gear: "driver" })?;
-    let blank = label(blank).untangled().ok_or(TeethError::Tangled { gear: "follower" })?;
+    let driver = label(driver).untangled().ok_or(TeethError::Tangled { gear: Side::Driver })?;
+    let blank = label(blank).untangled().ok_or(TeethError::Tangled { gear: Side::Follower })?;
     let carved = carve(
         &rolling,
         &driver.points,
@@ -93,7 +94,7 @@ fn carved_waves(
         policy::CARVE_DEPTH * module,
         false,
     )
-    .ok_or(TeethError::Tangled { gear: "follower" })?;
+    .ok_or(TeethError::Tangled { gear: Side::Follower })?;
     let cuts = carved.cuts;
     let follower = label(carved.outline).without_short_edges(policy::SHORTEST_EDGE * module);
     Ok(ToothedPair { driver, follower, module, uncovered: [0.0; 2], cuts, records: Vec::new() })

@@ -1,7 +1,8 @@
 //! `centrode check` passes pairs that mesh, catches those that do not, and refuses what is no pair.
 
 use crate::common::{centrode, complaint};
-use centrode::outline::{GearRole, load_toothed};
+use centrode::gear::Side;
+use centrode::outline::load_toothed;
 use centrode::policy::EXPORT_TOLERANCE;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
@@ -129,15 +130,15 @@ fn groups_of_a_drawing_tell_the_gears_apart() {
     let read = |source: &str, role| load_toothed(source, role).unwrap();
     let by_name = format!("{path}#follower");
     for (gear, radius) in [
-        (read(&path, GearRole::Driver), 30.0),
-        (read(&path, GearRole::Follower), 40.0),
-        (read(&by_name, GearRole::Driver), 40.0),
+        (read(&path, Side::Driver), 30.0),
+        (read(&path, Side::Follower), 40.0),
+        (read(&by_name, Side::Driver), 40.0),
     ] {
         let area = PI * radius * radius;
         assert!((gear.outline.area() / area - 1.0).abs() < 0.01, "{}", gear.outline.area());
         assert_eq!(gear.holes.len(), 1);
     }
-    let none = load_toothed(&format!("{path}#idler"), GearRole::Driver).unwrap_err().to_string();
+    let none = load_toothed(&format!("{path}#idler"), Side::Driver).unwrap_err().to_string();
     assert!(none.contains("no part `idler`"), "{none}");
 }
 
@@ -245,7 +246,7 @@ fn exported_drawings_hold_the_gears_within_the_tolerance() {
         let command = ["export", &folder, "--export", "dxf"];
         let again = centrode(command.iter().chain(dialect));
         assert!(again.status.success(), "{}", complaint(&again));
-        for role in [GearRole::Driver, GearRole::Follower] {
+        for role in [Side::Driver, Side::Follower] {
             let truth = gear("design.json", role);
             for file in ["pair.dxf", &format!("{}.dxf", role.name())] {
                 let drawn = gear(file, role);

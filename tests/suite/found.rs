@@ -3,8 +3,9 @@
 
 use centrode::check::{CheckOptions, check};
 use centrode::design::SavedDesign;
+use centrode::gear::Side;
 use centrode::law::{Quantity, Table};
-use centrode::outline::{GearRole, LoadOptions, Outline, shape_from_bytes, toothed_from_bytes};
+use centrode::outline::{LoadOptions, Outline, shape_from_bytes, toothed_from_bytes};
 use centrode::scene::{Key, Kind, read, write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -54,7 +55,7 @@ fn an_arc_wider_than_the_world_is_refused() {
 #[test]
 fn an_outline_that_is_accepted_is_accepted_again() {
     let (path, bytes) = found("mesh-2.obj");
-    let made = toothed_from_bytes(&bytes, &path.to_string_lossy(), None, GearRole::Driver);
+    let made = toothed_from_bytes(&bytes, &path.to_string_lossy(), None, Side::Driver);
     if let Ok(gear) = made {
         let points = gear.outline.points().to_vec();
         assert_eq!(Outline::new(points).as_ref(), Ok(&gear.outline));
@@ -73,7 +74,7 @@ fn finished_gears_far_away_or_of_absurd_numbers_are_refused() {
         ("mesh-1.obj", "line 4"),
     ];
     refused(&cases, |name, bytes| {
-        let made = toothed_from_bytes(bytes, name, None, GearRole::Driver);
+        let made = toothed_from_bytes(bytes, name, None, Side::Driver);
         made.map(drop).map_err(|e| e.to_string())
     });
 }
@@ -102,7 +103,7 @@ fn a_check_does_not_believe_absurd_tooth_counts() {
     refused(&[("design-1.json", "4000000000 teeth")], |name, bytes| {
         let gear = |role| toothed_from_bytes(bytes, name, None, role).unwrap();
         let options = CheckOptions { center_distance: Some(16.0), ..CheckOptions::default() };
-        let made = check(&gear(GearRole::Driver), &gear(GearRole::Follower), &options);
+        let made = check(&gear(Side::Driver), &gear(Side::Follower), &options);
         made.map(drop).map_err(|e| e.to_string())
     });
 }

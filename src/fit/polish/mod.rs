@@ -21,11 +21,11 @@ use self::field::{Field, Raster};
 use self::law::Basis;
 use super::align::Aligner;
 use super::global_search::{interior_grid, thinned};
-use super::laws::Role;
 use super::limits::{LimitCost, apply};
 use super::objective::{Candidate, Objective, Problem};
 use super::placement::{self, FittedGear, Similarity};
 use super::{Fit, FitError};
+use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
@@ -207,9 +207,9 @@ fn delivered(
         centrodes.driver_curve(count * folds.0 as usize),
         centrodes.follower_curve(count * folds.1 as usize),
     ];
-    let fitted = |i: usize, role: Role, angle: f64| -> Result<FittedGear, FitError> {
+    let fitted = |i: usize, side: Side, angle: f64| -> Result<FittedGear, FitError> {
         let center = drawings[i].outward(Point::new(x[3 * i], x[3 * i + 1]));
-        let lost_area = problem.law(role, center)?.lost_area;
+        let lost_area = problem.law(side, center)?.lost_area;
         let scale = geometry::area(&curves[i]).sqrt() / drawings[i].size;
         let placement = Similarity { center, angle, scale };
         let input = if i == 0 { problem.driver } else { problem.follower };
@@ -217,8 +217,8 @@ fn delivered(
         let iou = geometry::intersection_over_union(&curves[i], &placed);
         Ok(FittedGear { center_in_input: center, placement, iou, lost_area })
     };
-    let driver = fitted(0, Role::Driver, 0.0)?;
-    let follower = fitted(1, Role::Follower, x[5] - before.psi(start))?;
+    let driver = fitted(0, Side::Driver, 0.0)?;
+    let follower = fitted(1, Side::Follower, x[5] - before.psi(start))?;
     let objective = judged(problem, &driver, &follower, &limited)?;
     Ok(Fit {
         transmission: centrodes.transmission,
@@ -240,18 +240,18 @@ fn judged(
     limited: &LimitCost,
 ) -> Result<Objective, FitError> {
     let aligner = Aligner::new(problem.samples, problem.windows());
-    let shift = |short_role: Role, long_role: Role| {
-        let center = |role| {
-            if role == Role::Driver { driver.center_in_input } else { follower.center_in_input }
+    let shift = |short_side: Side, long_side: Side| {
+        let center = |side| {
+            if side == Side::Driver { driver.center_in_input } else { follower.center_in_input }
         };
-        let (short, _) = problem.whole_turn(short_role, center(short_role)).ok()?;
-        let (long, _) = problem.whole_turn(long_role, center(long_role)).ok()?;
+        let (short, _) = problem.whole_turn(short_side, center(short_side)).ok()?;
+        let (long, _) = problem.whole_turn(long_side, center(long_side)).ok()?;
         let long = aligner.long(long, 1.0 / problem.ratio.value(), true);
         Some(aligner.best(&aligner.short(short), &long, 1, &mut aligner.scratch()).shift)
     };
-    let shift = match problem.short_role() {
-        Role::Driver => shift(Role::Driver, Role::Follower),
-        Role::Follower => shift(Role::Follower, Role::Driver),
+    let shift = match problem.short_side() {
+        Side::Driver => shift(Side::Driver, Side::Follower),
+        Side::Follower => shift(Side::Follower, Side::Driver),
     };
     let candidate = Candidate {
         driver: driver.center_in_input,

@@ -2,7 +2,8 @@
 
 use super::super::svg::{flatten, refuse_tiny};
 use super::super::{OutlineError, SvgError, svg_guard};
-use super::{Asked, GearRole, Ring, ToothedError};
+use super::{Asked, Ring, ToothedError};
+use crate::gear::Side;
 use crate::geometry::Point;
 use crate::policy;
 use crate::wording::quoted;
@@ -71,11 +72,11 @@ fn wanted_gear<'a>(
         let mut groups = document.descendants().filter(|n| n.tag_name().name() == "g");
         groups.any(|n| n.attribute("id").is_some_and(|id| belongs(id, gear)))
     };
-    let both = || [GearRole::Driver, GearRole::Follower].iter().all(|role| exists(role.name()));
+    let both = || Side::BOTH.iter().all(|side| exists(side.name()));
     match asked.part {
         Some(part) if !exists(part) => Err(asked.no_such_part(part)),
         Some(part) => Ok(Some(part)),
-        None => Ok(Some(asked.role.name()).filter(|_| both())),
+        None => Ok(Some(asked.side.name()).filter(|_| both())),
     }
 }
 

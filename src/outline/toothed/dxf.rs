@@ -91,7 +91,7 @@ fn wanted_layer<'a>(
     match asked.part {
         Some(part) if !exists(part) => Err(asked.no_such_part(part)),
         Some(part) => Ok(Some(part)),
-        None => Ok(Some(asked.role.name()).filter(|name| exists(name))),
+        None => Ok(Some(asked.side.name()).filter(|name| exists(name))),
     }
 }
 

@@ -14,7 +14,7 @@ pub(super) type Contours = (Vec<Ring>, Option<PairRecord>);
 pub(super) fn rings(bytes: &[u8], asked: &Asked<'_>) -> Result<Contours, ToothedError> {
     let failed = |error| ToothedError::Points { path: asked.path(), error };
     let document = json(bytes, policy::POINT_FILE_BYTES).map_err(failed)?;
-    let part = asked.part.unwrap_or(asked.role.name());
+    let part = asked.part.unwrap_or(asked.side.name());
     let (gear, record) = match document.get(part) {
         Some(gear) => (gear, record(&document, asked.path)),
         None => match asked.part {

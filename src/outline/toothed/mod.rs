@@ -10,30 +10,11 @@ mod spline;
 
 use super::load::{bounded, read_file};
 use super::{LoadError, Outline, OutlineError, PointsError, SvgError, points, simplify};
+use crate::gear::Side;
 use crate::geometry::curves::without_barbs;
 use crate::geometry::{self, Point};
 use crate::policy;
 use std::path::Path;
-
-/// Which gear of a pair is meant, where a file holds both.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GearRole {
-    /// The gear that drives.
-    Driver,
-    /// The gear that is driven.
-    Follower,
-}
-
-impl GearRole {
-    /// Its name in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Driver => "driver",
-            Self::Follower => "follower",
-        }
-    }
-}
 
 /// A finished gear, mm, y upwards, in the frame of its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,7 +183,7 @@ struct Ring {
 /// Reads a finished gear.
 ///
 /// `source` is a path, or a folder that holds a `design.json`. Where a file holds both gears of a
-/// pair (a `design.json`, an OBJ with objects or a DXF with layers `driver` and `follower`), `role`
+/// pair (a `design.json`, an OBJ with objects or a DXF with layers `driver` and `follower`), `side`
 /// picks one, or `#driver`, `#follower` behind the path does. The largest closed contour is the gear, contours in
 /// it are holes. Units: SVG with a size in mm, cm, in and the like has that scale, without one
 /// a unit of its view box is 1 mm; DXF by its header, mm without one; all else mm. Curves are
@@ -212,7 +193,7 @@ struct Ring {
 ///
 /// # Errors
 /// See [`ToothedError`].
-pub fn load_toothed(source: &str, role: GearRole) -> Result<Toothed, ToothedError> {
+pub fn load_toothed(source: &str, side: Side) -> Result<Toothed, ToothedError> {
     let (path, part) = match source.rsplit_once('#') {
         Some((path, part)) if !Path::new(source).exists() => (path, Some(part)),
         _ => (source, None),
@@ -223,7 +204,7 @@ pub fn load_toothed(source: &str, role: GearRole) -> Result<Toothed, ToothedErro
         LoadError::Unknown { name, .. } => LoadError::Missing { path: name },
         other => other,
     })?;
-    read(&bytes, &Asked { path: &file, part, role })
+    read(&bytes, &Asked { path: &file, part, side })
 }
 
 /// The finished gear in the bytes of a file: [`load_toothed`] for what is in memory.
@@ -236,10 +217,10 @@ pub fn toothed_from_bytes(
     bytes: &[u8],
     file_name: &str,
     part: Option<&str>,
-    role: GearRole,
+    side: Side,
 ) -> Result<Toothed, ToothedError> {
     bounded(bytes, file_name)?;
-    read(bytes, &Asked { path: file_name, part, role })
+    read(bytes, &Asked { path: file_name, part, side })
 }
 
 fn read(bytes: &[u8], asked: &Asked<'_>) -> Result<Toothed, ToothedError> {
@@ -265,7 +246,7 @@ fn read(bytes: &[u8], asked: &Asked<'_>) -> Result<Toothed, ToothedError> {
 struct Asked<'a> {
     path: &'a str,
     part: Option<&'a str>,
-    role: GearRole,
+    side: Side,
 }
 
 impl Asked<'_> {

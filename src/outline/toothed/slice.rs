@@ -65,7 +65,7 @@ pub(super) fn of_obj(bytes: &[u8], asked: &Asked<'_>) -> Result<Vec<Ring>, Tooth
     let wanted = match asked.part {
         Some(part) if !named(part) => return Err(asked.no_such_part(part)),
         Some(part) => Some(part),
-        None => Some(asked.role.name()).filter(|name| named(name)),
+        None => Some(asked.side.name()).filter(|name| named(name)),
     };
     let triangles = objects
         .iter()

@@ -24,7 +24,7 @@ fn read(name: &str, text: impl AsRef<[u8]>, part: &str) -> Result<Toothed, Tooth
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, text).unwrap();
-    load_toothed(&format!("{}{part}", path.display()), GearRole::Follower)
+    load_toothed(&format!("{}{part}", path.display()), Side::Follower)
 }
 
 fn near(value: f64, truth: f64) {
