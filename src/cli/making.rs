@@ -5,9 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use centrode::design::{
-    BoreChoice, Design, DesignOptions, RECORD_NAME, Record, Scale, TeethStyle, ToothCount,
-};
+use centrode::design::{Design, DesignOptions, RECORD_NAME, Record, Scale, TeethStyle, ToothCount};
 use centrode::export::{
     ExportError, Format, Parts, Staging, check_folder, check_inputs, write_json,
 };
@@ -84,7 +82,7 @@ impl Making<'_> {
                 None => Scale::CenterDistance(self.size.center_distance),
             },
             thickness: self.size.thickness,
-            bore: self.outfit.bore().map_or(defaults.bore, BoreChoice::Exactly),
+            bore: self.outfit.bore().unwrap_or(defaults.bore),
             outfit: self.outfit.outfit(),
             repair: !self.teeth.strict,
             load: Load { torque: self.run.load, rpm: self.run.rpm, friction: self.run.friction },

@@ -1,22 +1,23 @@
 //! Options for hubs, holes, lettering and the base plate.
 
+use centrode::design::BoreChoice;
 use centrode::design::outfit::{Base, HubChoice, Label, LabelText, Lightening, Outfit, Screws};
 use centrode::policy;
-use centrode::solid::Bore;
+use centrode::solid::{Bore, Fit};
 use clap::{Args, ValueEnum};
 
-use super::units;
+use super::units::{self, BoreArg};
 
 /// What the gears carry and stand on.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Axles, hubs and base")]
 pub(crate) struct OutfitArgs {
-    /// Hole for the axle: round:5 (or 5mm), d:5, d:5x4.5, hex:6, square:4, keyway:8, keyway:8x2x1, lego, none [default: 5mm, or less where there is no room]
+    /// Hole for what goes through: a screw (M2 to M12), a bearing (608, 625, ...), a motor (nema17); or by its sizes: round:5 (or 5mm), d:5, d:5x4.5, hex:6, square:4, keyway:8, keyway:8x2x1, lego, none [default: 5mm, or less where there is no room]
     #[arg(long, value_name = "BORE", value_parser = units::bore, allow_hyphen_values = true)]
-    pub(crate) bore: Option<Bore>,
-    /// Play on each side of bores and pins: tight, slide, loose, or a length [default: none; 0.1mm for lego]
+    pub(crate) bore: Option<BoreArg>,
+    /// Play on each side of bores and pins: tight, slide, loose, or a length; for screws also fine, medium, coarse (ISO 273) [default: none; fine for screws, 0.05mm for bearings and motors, 0.1mm for lego]
     #[arg(long, value_name = "FIT", value_parser = units::fit, allow_hyphen_values = true)]
-    pub(crate) fit: Option<f64>,
+    pub(crate) fit: Option<Fit>,
     /// Hub on the top face, this wide [default with a hub: as much as its bore needs]
     #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) hub_diameter: Option<f64>,
@@ -82,9 +83,13 @@ pub(crate) enum BaseArg {
 
 impl OutfitArgs {
     /// The bore asked for; on a Lego plate a cross axle's unless another is.
-    pub(crate) fn bore(&self) -> Option<Bore> {
-        let cross = Bore::Lego { play: policy::LEGO_AXLE_PLAY };
-        self.bore.or_else(|| (self.base == BaseArg::Lego).then_some(cross))
+    pub(crate) fn bore(&self) -> Option<BoreChoice> {
+        let cross = BoreArg::Sized(Bore::Lego { play: policy::LEGO_AXLE_PLAY });
+        let bore = self.bore.or_else(|| (self.base == BaseArg::Lego).then_some(cross))?;
+        Some(match bore {
+            BoreArg::Named(name) => BoreChoice::Named(name),
+            BoreArg::Sized(bore) => BoreChoice::Exactly(bore),
+        })
     }
 
     /// As the library takes it.

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use centrode::design::{Design, run_record};
+use centrode::design::{BoreChoice, Design, run_record};
 use centrode::meshing::ContactPose;
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section, Verdict};
 use centrode::teeth::cycle_periods;
@@ -41,6 +41,7 @@ pub(crate) fn summary(
             "weakest_tooth_stress": made.strength.weakest().map(|t| t.stress),
             "efficiency": made.strength.efficiency,
             "contact_ratio": contact.contact_ratio,
+            "bore": bore(made),
             "simulation": made.proof.as_ref().map(|p| p.runs.iter().map(run_record).collect::<Vec<_>>()),
             "seconds": elapsed.as_secs_f64(),
         });
@@ -121,6 +122,9 @@ pub(crate) fn summary(
             tooth.index, tooth.side, tooth.stress, made.strength.load.torque
         )?;
     }
+    if let Some(bore) = bore(made) {
+        writeln!(out, "bore {bore}")?;
+    }
     for line in made.proof.iter().flat_map(super::proof::lines) {
         writeln!(out, "{line}")?;
     }
@@ -144,6 +148,14 @@ pub(crate) fn summary(
         writeln!(out, "open {}", page.display())?;
     }
     Ok(())
+}
+
+/// What a bore asked for by name is like.
+fn bore(made: &Design) -> Option<String> {
+    match made.options.bore {
+        BoreChoice::Named(name) => Some(name.told(made.options.outfit.fit)),
+        _ => None,
+    }
 }
 
 /// The page's text and plots.
@@ -239,6 +251,9 @@ fn sections(made: &Design) -> Vec<Section> {
             format!("{:.3} mm", made.options.clearance),
             "inward offset of every face, per gear",
         );
+    if let Some(bore) = bore(made) {
+        gears = gears.row("Bore", bore);
+    }
     if let (Some(least), Some(most)) = (&contact.min_backlash, &contact.max_backlash) {
         gears = gears.noted_row(
             "Angular backlash",

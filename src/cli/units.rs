@@ -4,7 +4,8 @@ use centrode::fit::Ratio;
 use centrode::gallery::Shard;
 use centrode::geometry::Point;
 use centrode::policy;
-use centrode::solid::Bore;
+use centrode::solid::hardware::Clearance;
+use centrode::solid::{Bore, BoreName, Fit};
 
 /// Studs of the well-known building brick, mm.
 const STUD_MM: f64 = 8.0;
@@ -135,7 +136,6 @@ pub(crate) fn two_counts(text: &str) -> Result<[u32; 2], String> {
     })
 }
 
-/// A number of zero or more.
 /// Density of a named material, kg/m^3.
 pub(crate) fn material(text: &str) -> Result<f64, String> {
     let wanted = text.trim().to_ascii_lowercase();
@@ -146,6 +146,7 @@ pub(crate) fn material(text: &str) -> Result<f64, String> {
     })
 }
 
+/// A number of zero or more.
 pub(crate) fn zero_or_more(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
@@ -171,16 +172,21 @@ pub(crate) fn shard(text: &str) -> Result<Shard, String> {
     })
 }
 
-/// A bore: `none`, `lego`, the diameter of a round hole, or a kind with sizes such as `d:5x4.5`.
-pub(crate) fn bore(text: &str) -> Result<Bore, String> {
+/// A bore: what goes through by its name (`M5`, `608`, `nema17`), `none`, `lego`, the diameter of a round hole, or a kind
+/// with sizes such as `d:5x4.5`.
+pub(crate) fn bore(text: &str) -> Result<BoreArg, String> {
     let refused = || {
         format!(
-            "'{text}' is not a bore; write none, lego, 5mm, round:5, d:5, d:5x4.5, hex:6, square:4, keyway:8 or keyway:8x2x1"
+            "'{text}' is not a bore; write {}, none, lego, 5mm, round:5, d:5, d:5x4.5, hex:6, square:4, keyway:8 or keyway:8x2x1",
+            BoreName::all().join(", ")
         )
     };
+    if let Ok(name) = text.parse() {
+        return Ok(BoreArg::Named(name));
+    }
     match text {
-        "none" => return Ok(Bore::None),
-        "lego" => return Ok(Bore::Lego { play: policy::LEGO_AXLE_PLAY }),
+        "none" => return Ok(BoreArg::Sized(Bore::None)),
+        "lego" => return Ok(BoreArg::Sized(Bore::Lego { play: policy::LEGO_AXLE_PLAY })),
         _ => {}
     }
     let (kind, sizes) = text.split_once(':').unwrap_or(("round", text));
@@ -188,7 +194,7 @@ pub(crate) fn bore(text: &str) -> Result<Bore, String> {
         .split('x')
         .map(|size| positive_length(size).map_err(|_| refused()))
         .collect::<Result<_, _>>()?;
-    Ok(match (kind, sizes.as_slice()) {
+    Ok(BoreArg::Sized(match (kind, sizes.as_slice()) {
         ("round", &[diameter]) => Bore::Round { diameter },
         ("d", &[diameter]) => Bore::D { diameter, flat: policy::D_FLAT * diameter },
         ("d", &[diameter, flat]) => Bore::D { diameter, flat },
@@ -199,19 +205,34 @@ pub(crate) fn bore(text: &str) -> Result<Bore, String> {
         })?,
         ("keyway", &[diameter, width, depth]) => Bore::Keyway { diameter, width, depth },
         _ => return Err(refused()),
-    })
+    }))
 }
 
-/// Play a side: a named fit or a length.
-pub(crate) fn fit(text: &str) -> Result<f64, String> {
+/// What `--bore` names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum BoreArg {
+    /// What goes through; the fit is added by its kind.
+    Named(BoreName),
+    /// A hole by its sizes.
+    Sized(Bore),
+}
+
+/// A fit: a name or play a side.
+pub(crate) fn fit(text: &str) -> Result<Fit, String> {
     match text {
-        "tight" => Ok(policy::TIGHT_FIT),
-        "slide" => Ok(policy::SLIDE_FIT),
-        "loose" => Ok(policy::LOOSE_FIT),
-        _ => length_or_zero(text).map_err(|_| {
-            format!("'{text}' is not a fit; write tight, slide, loose, or a length such as 0.1mm")
-        }),
+        "tight" => return Ok(Fit::Play(policy::TIGHT_FIT)),
+        "slide" => return Ok(Fit::Play(policy::SLIDE_FIT)),
+        "loose" => return Ok(Fit::Play(policy::LOOSE_FIT)),
+        _ => {}
     }
+    if let Some((_, class)) = Clearance::ALL.into_iter().find(|(name, _)| *name == text) {
+        return Ok(Fit::Clearance(class));
+    }
+    length_or_zero(text).map(Fit::Play).map_err(|_| {
+        format!(
+            "'{text}' is not a fit; write tight, slide, loose, a length such as 0.1mm, or for screws fine, medium, coarse"
+        )
+    })
 }
 
 #[cfg(test)]
@@ -248,22 +269,28 @@ mod tests {
 
     #[test]
     fn bores_by_name_or_diameter() {
-        assert_eq!(bore("none"), Ok(Bore::None));
-        assert_eq!(bore("5mm"), Ok(Bore::Round { diameter: 5.0 }));
+        assert_eq!(bore("none"), Ok(BoreArg::Sized(Bore::None)));
+        assert_eq!(bore("5mm"), Ok(BoreArg::Sized(Bore::Round { diameter: 5.0 })));
         assert_eq!(bore("round:5"), bore("5"));
         assert_eq!(bore("d:5"), bore("d:5x4.5mm"));
-        assert_eq!(bore("hex:6mm"), Ok(Bore::Hex { across: 6.0 }));
-        assert_eq!(bore("square:4"), Ok(Bore::Square { side: 4.0 }));
+        assert_eq!(bore("hex:6mm"), Ok(BoreArg::Sized(Bore::Hex { across: 6.0 })));
+        assert_eq!(bore("square:4"), Ok(BoreArg::Sized(Bore::Square { side: 4.0 })));
         assert_eq!(bore("keyway:8"), bore("keyway:8x2x1"));
-        for bad in ["wide", "d:5x4x3", "hex:", "oval:4", "keyway:3", "square:-4", "keyway:8x2"] {
+        for name in ["M5", "m2.5", "608", "608ZZ", "nema17"] {
+            assert!(matches!(bore(name), Ok(BoreArg::Named(_))), "{name}");
+        }
+        for bad in
+            ["wide", "d:5x4x3", "hex:", "oval:4", "keyway:3", "square:-4", "keyway:8x2", "M7"]
+        {
             assert!(bore(bad).is_err(), "{bad}");
         }
     }
 
     #[test]
     fn fits_by_name_or_length() {
-        assert_eq!(fit("slide"), Ok(0.15));
-        assert_eq!(fit("0.2mm"), Ok(0.2));
+        assert_eq!(fit("slide"), Ok(Fit::Play(0.15)));
+        assert_eq!(fit("0.2mm"), Ok(Fit::Play(0.2)));
+        assert_eq!(fit("medium"), Ok(Fit::Clearance(Clearance::Medium)));
         assert!(fit("snug").is_err() && fit("-0.1").is_err());
     }
 }

@@ -212,6 +212,7 @@ pub fn design(
     if let BoreChoice::Exactly(bore) = options.bore {
         bore.polygon(policy::BORE_CHORD_TOLERANCE)?;
     }
+    options.outfit.check_fit(&options.bore)?;
     if let Scale::CenterDistance(distance) = options.scale {
         options.outfit.check_distance(distance)?;
     }
@@ -445,10 +446,14 @@ fn bore_for(
     name: &str,
 ) -> Result<Option<Vec<Point>>, DesignError> {
     let tolerance = policy::BORE_CHORD_TOLERANCE;
-    let with_play = |bore: Bore| options.outfit.fit.map_or(bore, |play| bore.with_play(play));
+    let with_play = |bore: Bore| options.outfit.play().map_or(bore, |play| bore.with_play(play));
     match options.bore {
         BoreChoice::Exactly(bore) => {
             Ok(with_play(bore).fitted(outline, policy::BORE_WALL, tolerance)?)
+        }
+        BoreChoice::Named(name) => {
+            let bore = name.hole(options.outfit.fit).map_err(outfit::OutfitError::from)?;
+            Ok(bore.fitted(outline, policy::BORE_WALL, tolerance)?)
         }
         BoreChoice::AtMost(diameter) => {
             for share in [1.0, 0.8, 0.6, 0.4] {

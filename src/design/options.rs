@@ -6,7 +6,7 @@ use crate::law::Segment;
 use crate::meshing::ContactError;
 use crate::meshing::{DynamicsError, DynamicsOptions};
 use crate::pitch::TransmissionError;
-use crate::solid::{Bore, SolidError};
+use crate::solid::{Bore, BoreName, SolidError};
 use crate::strength::Load;
 use crate::teeth::TeethError;
 
@@ -50,6 +50,8 @@ pub enum BoreChoice {
     AtMost(f64),
     /// Exactly this one, or an error.
     Exactly(Bore),
+    /// For what goes through, with the fit of [`Outfit::fit`]; or an error.
+    Named(BoreName),
 }
 
 /// Everything a design can be told. Lengths in mm, angles in radians.

@@ -7,11 +7,13 @@
 
 mod bevel;
 mod bore;
+mod bore_name;
 mod carve;
 mod check;
 mod error;
 mod fixture;
 mod gear;
+pub mod hardware;
 mod kernel;
 mod mesh;
 mod screw;
@@ -19,6 +21,7 @@ mod shading;
 mod wall;
 
 pub use bore::{Bore, circle, pin_radius};
+pub use bore_name::{BoreName, Fit, NoSuchBore, NotAScrew};
 pub use carve::{Carved, carve_follower_with_manifold};
 pub use check::{Expected, Fault, check};
 pub use error::SolidError;

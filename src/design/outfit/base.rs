@@ -19,7 +19,7 @@ pub(super) fn plate(assembly: &Assembly, outfit: &Outfit) -> Result<Option<Fixtu
 /// thickest round pin that goes into them.
 fn pins(assembly: &Assembly, outfit: &Outfit) -> Result<Fixture, OutfitError> {
     let (thickness, gap) = (outfit.base_thickness, policy::SHOULDER_HEIGHT);
-    let play = outfit.fit.unwrap_or(policy::SLIDE_FIT);
+    let play = outfit.play().unwrap_or(policy::SLIDE_FIT);
     let mut posts = Vec::new();
     let mut widest = 0.0_f64;
     for placed in &assembly.gears {
@@ -73,7 +73,7 @@ fn lego(assembly: &Assembly, outfit: &Outfit) -> Result<Fixture, OutfitError> {
         outfit.check_distance(axis.y.abs())?;
     }
     let (thickness, gap) = (outfit.base_thickness, policy::SHOULDER_HEIGHT);
-    let play = outfit.fit.unwrap_or(policy::LEGO_AXLE_PLAY);
+    let play = outfit.play().unwrap_or(policy::LEGO_AXLE_PLAY);
     let round = circle(0.5 * policy::LEGO_AXLE_SPAN + play, policy::BORE_CHORD_TOLERANCE);
     let (low, high) = bounds(&assembly.gears);
     let columns = ((high.x - low.x) / stud).round() as i32;

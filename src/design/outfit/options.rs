@@ -1,13 +1,15 @@
 //! What may be asked for.
 
+use crate::design::BoreChoice;
 use crate::geometry::{LetteringError, lettering};
 use crate::policy;
+use crate::solid::{Fit, NotAScrew};
 
 /// What the gears carry and stand on. Nothing by default. Lengths in mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outfit {
-    /// Play on each side of bores, pins and axle holes; `None` leaves every kind its own.
-    pub fit: Option<f64>,
+    /// How bores, pins and axle holes fit; `None` leaves every kind its own.
+    pub fit: Option<Fit>,
     /// A boss on the top face of each gear.
     pub hub: Option<HubChoice>,
     /// A circle of screw holes through each gear.
@@ -123,6 +125,25 @@ impl Outfit {
         Ok(())
     }
 
+    /// Play on each side of what is no screw hole, mm; `None` leaves every kind its own.
+    #[must_use]
+    pub fn play(&self) -> Option<f64> {
+        self.fit.and_then(|fit| fit.play().ok())
+    }
+
+    /// Passes a fit that goes with a bore: classes of clearance holes are for screws.
+    ///
+    /// # Errors
+    /// [`OutfitError::NotAScrew`].
+    pub fn check_fit(&self, bore: &BoreChoice) -> Result<(), OutfitError> {
+        match (bore, self.fit) {
+            (BoreChoice::Named(name), fit) => name.hole(fit).map(|_| ())?,
+            (_, Some(fit)) => fit.play().map(|_| ())?,
+            _ => {}
+        }
+        Ok(())
+    }
+
     /// Whether marks for assembly are to be made.
     #[must_use]
     pub fn wants_phase_mark(&self) -> bool {
@@ -146,7 +167,7 @@ impl Outfit {
         if self.chamfer != 0.0 {
             size("the chamfer", self.chamfer, 0.5 * thickness)?;
         }
-        if let Some(fit) = self.fit
+        if let Some(fit) = self.play()
             && !(0.0..=policy::LARGEST_PLAY).contains(&fit)
         {
             let remedy = format!("give 0 to {} mm", policy::LARGEST_PLAY);
@@ -242,6 +263,9 @@ pub enum OutfitError {
         /// Height of the smallest letters that can be printed, mm.
         least: f64,
     },
+    /// A fit of screws for a bore that is for none.
+    #[error(transparent)]
+    NotAScrew(#[from] NotAScrew),
     /// A text that cannot be written.
     #[error(transparent)]
     Lettering(#[from] LetteringError),

@@ -1,6 +1,6 @@
 use super::*;
 use crate::assembly::{Fittings, Fixture};
-use crate::solid::{Bore, assembly_solids};
+use crate::solid::{Bore, Fit, assembly_solids};
 use std::f64::consts::{PI, TAU};
 
 const TEETH: f64 = 32.0;
@@ -184,7 +184,7 @@ fn plate(outfit: &Outfit) -> Fixture {
 
 #[test]
 fn pins_stand_on_the_axes_and_leave_play() {
-    for (fit, play) in [(None, policy::SLIDE_FIT), (Some(0.3), 0.3)] {
+    for (fit, play) in [(None, policy::SLIDE_FIT), (Some(Fit::Play(0.3)), 0.3)] {
         let base = plate(&Outfit { base: Base::Pins, fit, ..Outfit::default() });
         assert_eq!(base.posts.len(), 4);
         for (post, x) in base.posts.iter().zip([0.0, 0.0, 80.0, 80.0]) {
@@ -222,7 +222,7 @@ fn a_lego_plate_has_a_hole_every_eight_millimetres() {
 #[test]
 fn all_of_it_goes_together() {
     let outfit = Outfit {
-        fit: Some(policy::SLIDE_FIT),
+        fit: Some(Fit::Play(policy::SLIDE_FIT)),
         hub: Some(HubChoice { diameter: None, height: 6.0, set_screw: Some(2.5) }),
         screws: None,
         lightening: Lightening::Auto,
@@ -245,8 +245,8 @@ fn sizes_out_of_range_are_refused_with_what_would_do() {
     for outfit in [
         Outfit { chamfer: 4.1, ..plain() },
         Outfit { chamfer: f64::NAN, ..plain() },
-        Outfit { fit: Some(-0.1), ..plain() },
-        Outfit { fit: Some(9.0), ..plain() },
+        Outfit { fit: Some(Fit::Play(-0.1)), ..plain() },
+        Outfit { fit: Some(Fit::Play(9.0)), ..plain() },
         Outfit { hub: hub(0.0, None), ..plain() },
         Outfit { hub: hub(1.0, Some(2.5)), ..plain() },
         Outfit { hub: hub(4.0, Some(3.0)), ..plain() },
