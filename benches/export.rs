@@ -8,7 +8,7 @@ use centrode::design::{DesignOptions, ToothCount, design};
 use centrode::export::{
     Animation, Dxf, Export, Glb, LaserSvg, Mjcf, Obj, Parts, Step, Stl, ThreeMf,
 };
-use centrode::outline::{LoadOptions, load};
+use centrode::input::{LoadOptions, load};
 use centrode::solid::assembly_solids;
 use criterion::{Criterion, criterion_group, criterion_main};
 

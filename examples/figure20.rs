@@ -9,8 +9,8 @@
 use anyhow::Context;
 use centrode::design::{DesignOptions, ToothCount, design};
 use centrode::geometry::Point;
+use centrode::input::{LoadOptions, load};
 use centrode::meshing::{ContactInput, ContactOptions, ContactSummary, analyse};
-use centrode::outline::{LoadOptions, load};
 use centrode::pitch::Centrodes;
 use centrode::teeth::{
     TeethOptions, ToothedPair, cycle_periods, involute_pair, regular_wave_pair, wave_pair,

@@ -4,7 +4,7 @@
 
 use centrode::design::{DesignOptions, design};
 use centrode::fit::Ratio;
-use centrode::outline::{LoadOptions, load};
+use centrode::input::{LoadOptions, load};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A path to an SVG, an image or a list of points would do as well.

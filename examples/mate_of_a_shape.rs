@@ -4,7 +4,7 @@
 
 use centrode::design::{DesignOptions, Scale, mate};
 use centrode::fit::Ratio;
-use centrode::outline::{LoadOptions, load};
+use centrode::input::{LoadOptions, load};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let heart = load("heart", &LoadOptions::default())?;

@@ -1,7 +1,7 @@
 //! Centrode turns two drawings, or one, or a wanted motion into a pair of non-circular gears that mesh.
 //!
 //! A tour, in the order the data flows:
-//! [`outline`] reads drawings; [`gear`] tells the two gears apart; [`pitch`] rolls curves on each other; [`fit`] finds axes and motion for two shapes, or the
+//! [`input`] reads drawings and finished gears into [`outline`]s; [`gear`] tells the two gears apart; [`pitch`] rolls curves on each other; [`fit`] finds axes and motion for two shapes, or the
 //! mate of one; [`law`] reads motions as formulas and tables; [`teeth`] lays flanks on the pitch curves; [`design`] does all
 //! of it and judges the result with [`meshing`] and [`strength`]; [`assembly`] puts pairs together to trains; [`solid`],
 //! [`export`] and [`report`] make files. [`check`] judges gears of any origin, [`gallery`] ranks many pairs, [`scene`] keeps a
@@ -12,7 +12,7 @@
 //! ```no_run
 //! use centrode::design::{DesignOptions, design};
 //! use centrode::fit::Ratio;
-//! use centrode::outline::{LoadOptions, load};
+//! use centrode::input::{LoadOptions, load};
 //!
 //! let driver = load("heart", &LoadOptions::default())?;
 //! let follower = load("dove.svg", &LoadOptions::default())?;
@@ -35,7 +35,7 @@
 //! # Ok::<(), centrode::law::LawError>(())
 //! ```
 //!
-//! Lengths are mm, angles radians, torques N mm. Nothing here prints, and only [`outline::load`], [`export`],
+//! Lengths are mm, angles radians, torques N mm. Nothing here prints, and only [`input::load`], [`export`],
 //! [`design::SavedDesign::read`] and [`design::read_train`] touch files.
 
 pub mod assembly;
@@ -46,6 +46,7 @@ pub mod fit;
 pub mod gallery;
 pub mod gear;
 pub mod geometry;
+pub mod input;
 pub mod law;
 pub mod meshing;
 pub mod outline;

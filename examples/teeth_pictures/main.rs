@@ -10,7 +10,7 @@ use anyhow::Context;
 use canvas::{Canvas, DARK, FAINT, INK, LIGHT, ORANGE, RED};
 use centrode::design::{Design, DesignOptions, ToothCount, design};
 use centrode::geometry::{Point, Vector, quarter_turn, rotate};
-use centrode::outline::{LoadOptions, load};
+use centrode::input::{LoadOptions, load};
 use centrode::pitch::Centrodes;
 use centrode::teeth::{
     Profile, TeethOptions, ToothedPair, involute_pair, regular_wave_pair, wave_pair,

@@ -6,7 +6,8 @@ use std::sync::LazyLock;
 
 use centrode::fit::Ratio;
 use centrode::geometry::{self, Point};
-use centrode::outline::{Outline, Shape};
+use centrode::input::Shape;
+use centrode::outline::Outline;
 use centrode::pitch::{Centrodes, Transmission};
 
 /// Longest refusal, characters: a formula of the greatest length, every character of it escaped, still fits.

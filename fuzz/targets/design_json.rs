@@ -9,7 +9,7 @@ use centrode::export::{
 };
 use centrode::meshing::ContactOptions;
 use centrode::gear::Side;
-use centrode::outline::{toothed_from_bytes};
+use centrode::input::toothed_from_bytes;
 use centrode::solid::assembly_solids;
 use centrode_fuzz::{remedied, told};
 use libfuzzer_sys::fuzz_target;

@@ -2,7 +2,7 @@
 #![no_main]
 
 use centrode::gear::Side;
-use centrode::outline::{toothed_from_bytes};
+use centrode::input::toothed_from_bytes;
 use centrode_fuzz::{remedied, sound};
 use libfuzzer_sys::fuzz_target;
 

@@ -1,7 +1,7 @@
 //! A silhouette as PNG, JPEG, TIFF or BMP.
 #![no_main]
 
-use centrode::outline::from_image;
+use centrode::input::from_image;
 use centrode_fuzz::{remedied, sound};
 use libfuzzer_sys::fuzz_target;
 

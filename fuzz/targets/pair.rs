@@ -7,7 +7,8 @@ use centrode::design::{
 use centrode::export::write_json;
 use centrode::fit::Search;
 use centrode::geometry::{self, Point};
-use centrode::outline::{Outline, OutlineError, Shape, Smoothing, repaired, smooth};
+use centrode::input::Shape;
+use centrode::outline::{Outline, OutlineError, Smoothing, repaired, smooth};
 use centrode::solid::assembly_solids;
 use centrode_fuzz::{Numbers, finite, folder, remedied, sound_shape};
 use libfuzzer_sys::fuzz_target;

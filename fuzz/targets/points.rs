@@ -3,7 +3,7 @@
 
 use centrode::check::motion_from_columns;
 use centrode::gear::Side;
-use centrode::outline::{LoadOptions, shape_from_bytes, toothed_from_bytes};
+use centrode::input::{LoadOptions, shape_from_bytes, toothed_from_bytes};
 use centrode_fuzz::{remedied, sound, sound_shape, told};
 use libfuzzer_sys::fuzz_target;
 

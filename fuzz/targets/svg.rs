@@ -2,7 +2,7 @@
 #![no_main]
 
 use centrode::gear::Side;
-use centrode::outline::{LoadOptions, shape_from_bytes, toothed_from_bytes};
+use centrode::input::{LoadOptions, shape_from_bytes, toothed_from_bytes};
 use centrode_fuzz::{remedied, sound, sound_shape};
 use libfuzzer_sys::fuzz_target;
 

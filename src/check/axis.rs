@@ -3,7 +3,7 @@
 use super::CheckError;
 use crate::gear::Side;
 use crate::geometry::Point;
-use crate::outline::Toothed;
+use crate::input::Toothed;
 
 /// How an axis was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,11 +15,11 @@ pub use motion::{MotionFileError, motion_from_columns};
 
 use crate::gear::Side;
 use crate::geometry::Point;
+use crate::input::{PairRecord, Toothed};
 use crate::meshing::{
     ContactInput, ContactOptions, ContactSummary, Direction, Dynamics, DynamicsInput,
     DynamicsOptions, Limits, Reason, Verdict, analyse, judge, simulate,
 };
-use crate::outline::{PairRecord, Toothed};
 use crate::policy;
 use motion::Law;
 use pair::Pair;

@@ -3,8 +3,8 @@
 use super::pair::Pair;
 use super::{CheckError, MotionGiven, MotionSource};
 use crate::gear::Side;
+use crate::input::PairRecord;
 use crate::meshing::{MotionError, SampledMotion};
-use crate::outline::PairRecord;
 use crate::policy;
 use std::f64::consts::TAU;
 

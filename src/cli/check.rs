@@ -9,8 +9,8 @@ use centrode::check::{
     CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns,
 };
 use centrode::gear::Side;
+use centrode::input::load_toothed;
 use centrode::meshing::{Direction, DynamicsOptions, Reason, Verdict};
-use centrode::outline::load_toothed;
 use serde::Serialize;
 
 use super::Outcome;

@@ -15,7 +15,8 @@ use centrode::gallery::{
     Figures, Job, Row, Thumbnail, all_pairs, gallery_html, sorted, to_csv, to_json, told_apart,
 };
 use centrode::geometry::{Point, intersection_over_union};
-use centrode::outline::{LoadOptions, Shape, Smoothing};
+use centrode::input::{LoadOptions, Shape};
+use centrode::outline::Smoothing;
 use centrode::pitch::Centrodes;
 use centrode::policy;
 use centrode::report::{PictureOptions, pair_svg, report_html};

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use centrode::fit::Ratio;
-use centrode::outline::{LoadOptions, Shape, library, load};
+use centrode::input::{LoadOptions, Shape, load};
+use centrode::outline::library;
 use rayon::prelude::*;
 
 use super::gallery::TABLES;

@@ -10,7 +10,8 @@ use centrode::export::{
     ExportError, Format, Parts, Staging, check_folder, check_inputs, write_json,
 };
 use centrode::fit::Ratio;
-use centrode::outline::{LoadOptions, Shape, Smoothing, load};
+use centrode::input::{LoadOptions, Shape, load};
+use centrode::outline::Smoothing;
 use centrode::report::report_html;
 use centrode::solid::{Mesh, assembly_solids};
 use centrode::strength::Load;

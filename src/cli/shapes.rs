@@ -2,7 +2,8 @@
 
 use anyhow::Context;
 use centrode::export::write_atomically;
-use centrode::outline::{LoadOptions, library, load};
+use centrode::input::{LoadOptions, load};
+use centrode::outline::library;
 use centrode::report::contact_sheet_svg;
 use std::io::Write;
 

@@ -21,11 +21,11 @@ pub use train_file::{TrainFileError, read_train, train_from_toml};
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::fit::{self, Fit, FittedGear, Objective, Ratio};
 use crate::geometry::{self, Point};
+use crate::input::Shape;
 use crate::meshing::{
     ContactAnalysis, ContactInput, DynamicsError, DynamicsInput, DynamicsOptions, Limits,
     MeshingReport, Reason, prove,
 };
-use crate::outline::Shape;
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
 use crate::solid::Bore;

@@ -340,7 +340,7 @@ pub(super) fn within_reach(points: &[Point]) -> Result<(), String> {
 mod tests {
     use super::super::{DesignOptions, Record, ToothCount, design};
     use super::*;
-    use crate::outline::{LoadOptions, load};
+    use crate::input::{LoadOptions, load};
 
     fn square(side: f64) -> Value {
         serde_json::json!([[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]])

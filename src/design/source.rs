@@ -2,7 +2,7 @@
 
 use super::DesignError;
 use crate::fit::{Fit, FittedGear, LimitCost, Mated};
-use crate::outline::Shape;
+use crate::input::Shape;
 use crate::pitch::{Centrodes, Transmission};
 
 /// A drawing and where it lies in its gear.

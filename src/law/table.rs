@@ -39,7 +39,7 @@ impl Table {
             if data.is_empty() {
                 continue;
             }
-            let fields = crate::outline::split_fields(data);
+            let fields = crate::input::split_fields(data);
             let numbers: Vec<Option<f64>> = fields.iter().map(|f| f.parse().ok()).collect();
             let number =
                 |i: usize| numbers.get(i).copied().flatten().filter(|v: &f64| v.is_finite());

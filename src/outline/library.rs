@@ -102,7 +102,7 @@ fn edit_distance(a: &[char], b: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::outline::from_svg;
+    use crate::input::from_svg;
     use crate::policy;
 
     #[test]

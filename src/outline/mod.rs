@@ -1,29 +1,15 @@
-//! Closed curves and where they come from: SVG drawings, silhouette images,
-//! point files and the built-in library; smoothing and normalisation.
+//! Closed curves: repair, smoothing, normalisation, and the built-in library.
 
-mod contour;
 pub mod library;
-mod load;
 mod normalize;
-mod points;
-mod repair;
-mod silhouette;
+pub(crate) mod repair;
 mod simplify;
 mod smooth;
-mod svg;
-mod svg_guard;
-mod toothed;
 
-pub use load::{LoadError, LoadOptions, Shape, load, shape_from_bytes};
 pub use normalize::{Similarity, normalized};
-pub(crate) use points::split_fields;
-pub use points::{PointsError, from_columns, from_json};
 pub use repair::repaired;
-pub use silhouette::{ImageError, from_image};
 pub use simplify::simplify;
 pub use smooth::{Smoothing, resample, smooth};
-pub use svg::{SvgError, from_svg};
-pub use toothed::{PairRecord, Thinned, Toothed, ToothedError, load_toothed, toothed_from_bytes};
 
 use crate::geometry::{self, Point};
 use crate::policy;
@@ -84,7 +70,7 @@ pub enum OutlineError {
 }
 
 /// Refuses coordinates that are not finite or too large.
-fn check_coordinates(points: &[Point]) -> Result<(), OutlineError> {
+pub(crate) fn check_coordinates(points: &[Point]) -> Result<(), OutlineError> {
     if let Some(index) = points.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
         return Err(OutlineError::NotFinite { index });
     }

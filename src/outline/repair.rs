@@ -10,7 +10,7 @@ use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 
 /// A closed contour in the plain form the boolean library reads.
-pub(super) type Ring = Vec<[f64; 2]>;
+pub(crate) type Ring = Vec<[f64; 2]>;
 
 /// Makes an outline of `points`, repairing small self-crossings.
 ///
@@ -46,7 +46,7 @@ fn crossing_of(points: &[Point]) -> OutlineError {
 }
 
 /// An outline of a boolean's result, whose rounding may let neighbouring vertices coincide.
-pub(super) fn simple(points: Vec<Point>) -> Result<Outline, OutlineError> {
+pub(crate) fn simple(points: Vec<Point>) -> Result<Outline, OutlineError> {
     Outline::new(points.clone()).or_else(|_| {
         let (low, high) = geometry::bounds(&points);
         let step = policy::WELD_DISTANCE * (high - low).norm();
@@ -61,7 +61,7 @@ pub(super) fn simple(points: Vec<Point>) -> Result<Outline, OutlineError> {
 }
 
 /// The filled components of `rings`, holes dropped, largest first; counter-clockwise.
-pub(super) fn filled_parts(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
+pub(crate) fn filled_parts(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
     let shapes = FloatOverlay::with_subj_custom(rings, OverlayOptions::ogc(), Default::default())
         .overlay(OverlayRule::Subject, rule);
     outer_rings(shapes)
@@ -77,7 +77,7 @@ fn outer_rings(shapes: Vec<Vec<Ring>>) -> Vec<Ring> {
 /// `touch` (unit of the rings).
 ///
 /// Only when something is joined by it is the boundary moved, outwards by half of `touch`.
-pub(super) fn joined(parts: Vec<Ring>, touch: f64) -> Vec<Ring> {
+pub(crate) fn joined(parts: Vec<Ring>, touch: f64) -> Vec<Ring> {
     if parts.len() < 2 {
         return parts;
     }
@@ -98,7 +98,7 @@ pub(super) fn joined(parts: Vec<Ring>, touch: f64) -> Vec<Ring> {
 ///
 /// # Errors
 /// [`OutlineError::TooIntricate`] beyond that, or when the search itself would take too long.
-pub(super) fn count_crossings(polygons: &[&[Point]]) -> Result<usize, OutlineError> {
+pub(crate) fn count_crossings(polygons: &[&[Point]]) -> Result<usize, OutlineError> {
     let mut edges: Vec<(Point, Point)> = polygons
         .iter()
         .flat_map(|p| p.iter().copied().zip(p.iter().copied().cycle().skip(1)))
@@ -128,15 +128,15 @@ fn properly_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
 }
 
-pub(super) fn to_ring(points: &[Point]) -> Ring {
+pub(crate) fn to_ring(points: &[Point]) -> Ring {
     points.iter().map(|p| [p.x, p.y]).collect()
 }
 
-pub(super) fn to_points(ring: &Ring) -> Vec<Point> {
+pub(crate) fn to_points(ring: &Ring) -> Vec<Point> {
     ring.iter().map(|&[x, y]| Point::new(x, y)).collect()
 }
 
-pub(super) fn ring_area(ring: &Ring) -> f64 {
+pub(crate) fn ring_area(ring: &Ring) -> f64 {
     geometry::area(&to_points(ring))
 }
 

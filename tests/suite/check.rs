@@ -2,7 +2,7 @@
 
 use crate::common::{centrode, complaint};
 use centrode::gear::Side;
-use centrode::outline::load_toothed;
+use centrode::input::load_toothed;
 use centrode::policy::EXPORT_TOLERANCE;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};

@@ -4,8 +4,9 @@
 use centrode::check::{CheckOptions, check};
 use centrode::design::SavedDesign;
 use centrode::gear::Side;
+use centrode::input::{LoadOptions, shape_from_bytes, toothed_from_bytes};
 use centrode::law::{Quantity, Table};
-use centrode::outline::{LoadOptions, Outline, shape_from_bytes, toothed_from_bytes};
+use centrode::outline::Outline;
 use centrode::scene::{Key, Kind, read, write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

@@ -2,7 +2,7 @@
 
 use centrode::design::{DesignOptions, design};
 use centrode::fit::{FitOptions, Ratio, Search, fit};
-use centrode::outline::{LoadOptions, Shape, load};
+use centrode::input::{LoadOptions, Shape, load};
 
 fn shape(name: &str) -> Shape {
     load(name, &LoadOptions::default()).unwrap()

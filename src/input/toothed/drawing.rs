@@ -1,10 +1,11 @@
 //! Contours of SVG drawings, filled or only stroked, at their true size.
 
 use super::super::svg::{flatten, refuse_tiny};
-use super::super::{OutlineError, SvgError, svg_guard};
+use super::super::{SvgError, svg_guard};
 use super::{Asked, Ring, ToothedError};
 use crate::gear::Side;
 use crate::geometry::Point;
+use crate::outline::OutlineError;
 use crate::policy;
 use crate::wording::quoted;
 

@@ -1,10 +1,11 @@
 //! Outlines from SVG drawings: the largest filled shape, strokes and text ignored.
 
-use super::repair::{
+use super::svg_guard;
+use crate::geometry::{self, Point};
+use crate::outline::repair::{
     Ring, count_crossings, filled_parts, joined, ring_area, simple, to_points, to_ring,
 };
-use super::{Outline, OutlineError, check_coordinates, simplify, svg_guard};
-use crate::geometry::{self, Point};
+use crate::outline::{Outline, OutlineError, check_coordinates, simplify};
 use crate::policy;
 use crate::wording::quoted;
 use i_overlay::core::fill_rule::FillRule;

@@ -2,7 +2,7 @@
 
 use super::super::points::{json, list_of_points};
 use super::{Asked, PairRecord, Ring, ToothedError, implicitly_closed};
-use crate::outline::PointsError;
+use crate::input::PointsError;
 use crate::policy;
 use serde_json::Value;
 

@@ -1,9 +1,7 @@
 //! Shapes by path or built-in name: the one place in this room that reads files.
 
-use super::{
-    ImageError, Outline, PointsError, Smoothing, SvgError, from_columns, from_image, from_json,
-    from_svg, library, smooth,
-};
+use super::{ImageError, PointsError, SvgError, from_columns, from_image, from_json, from_svg};
+use crate::outline::{Outline, Smoothing, library, smooth};
 use crate::policy;
 use crate::wording::quoted;
 use std::fs::File;

@@ -1,8 +1,8 @@
 //! Outlines from silhouette images.
 
 use super::contour::{Field, largest_contour};
-use super::{Outline, OutlineError, repaired};
 use crate::geometry::Point;
+use crate::outline::{Outline, OutlineError, repaired};
 use crate::policy;
 use crate::wording::quoted;
 use image::{

@@ -1,7 +1,7 @@
 //! Outlines from lists of points: text columns and JSON.
 
-use super::{Outline, OutlineError, repaired};
 use crate::geometry::Point;
+use crate::outline::{Outline, OutlineError, repaired};
 use crate::policy;
 use crate::wording::quoted;
 use serde_json::Value;

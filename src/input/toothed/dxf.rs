@@ -1,9 +1,9 @@
 //! Contours of DXF drawings: polylines with bulges, chains of lines and arcs, circles, splines.
 
-use super::super::{OutlineError, check_coordinates};
 use super::chain::chained;
 use super::{Asked, Ring, ToothedError, spline};
 use crate::geometry::{self, Point, Vector};
+use crate::outline::{OutlineError, check_coordinates};
 use crate::policy;
 use crate::wording::quoted;
 use dxf::entities::EntityType;

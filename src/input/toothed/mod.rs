@@ -8,11 +8,12 @@ mod json;
 mod slice;
 mod spline;
 
-use super::load::{bounded, read_file};
-use super::{LoadError, Outline, OutlineError, PointsError, SvgError, points, simplify};
+use super::drawing::{bounded, read_file};
+use super::{LoadError, PointsError, SvgError, points};
 use crate::gear::Side;
 use crate::geometry::curves::without_barbs;
 use crate::geometry::{self, Point};
+use crate::outline::{Outline, OutlineError, check_coordinates, simplify};
 use crate::policy;
 use std::path::Path;
 
@@ -303,7 +304,7 @@ fn assemble(rings: Vec<Ring>, path: &str) -> Result<Toothed, ToothedError> {
         return Err(failed(OutlineError::TooManyPoints { count, limit: policy::TOOTHED_VERTICES }));
     }
     for ring in &rings {
-        super::check_coordinates(&ring.points).map_err(failed)?;
+        check_coordinates(&ring.points).map_err(failed)?;
     }
     let extent = |ring: &Ring| {
         let (low, high) = geometry::bounds(&ring.points);
