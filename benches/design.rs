@@ -1,6 +1,7 @@
 //! What a user waits for, from smoothing a drawing to all files of a pair.
 #![allow(missing_docs, reason = "criterion's macros make public items without documentation")]
 
+use centrode::control::Control;
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -57,7 +58,9 @@ fn searches(c: &mut Criterion) {
             let (heart, dove) = (shape("heart", n).outline, shape("dove", n).outline);
             let options = FitOptions { search, samples: n, ..FitOptions::default() };
             group.bench_function(BenchmarkId::from_parameter(n), |b| {
-                b.iter(|| fit::fit(black_box(&heart), &dove, ratio(), &options));
+                b.iter(|| {
+                    fit::fit(black_box(&heart), &dove, ratio(), &options, Control::unwatched())
+                });
             });
         }
         group.finish();
@@ -98,6 +101,7 @@ fn gears(c: &mut Criterion) {
             motion: &|phi| transmission.psi(phi),
             motion_derivative: &|phi| transmission.derivative(phi),
             driver_cycle: transmission.driver_period(),
+            control: Control::unwatched(),
         };
         group.bench_function(BenchmarkId::from_parameter(teeth), |b| {
             b.iter(|| analyse(black_box(&input), &ContactOptions::default()));

@@ -2,6 +2,7 @@
 //!
 //! usage: cargo run --example check_of_contact
 
+use centrode::control::Control;
 use centrode::law::{LawOptions, Preset};
 use centrode::meshing::{ContactInput, ContactOptions, analyse};
 use centrode::pitch::Centrodes;
@@ -22,6 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             motion: &|phi| motion.psi(phi),
             motion_derivative: &|phi| motion.derivative(phi),
             driver_cycle: motion.driver_period() * f64::from(cycle_periods(motion)),
+            control: Control::unwatched(),
         },
         &ContactOptions::default(),
     )?;

@@ -6,6 +6,7 @@
 //! `law`: `derivative`, samples of psi' over one period, and `folds`, the orders of symmetry. Prints JSON.
 
 use anyhow::Context;
+use centrode::control::Control;
 use centrode::geometry::Point;
 use centrode::meshing::{ContactInput, ContactOptions, analyse};
 use centrode::pitch::Transmission;
@@ -34,6 +35,7 @@ fn main() -> anyhow::Result<()> {
         motion: &|phi| motion.psi(phi),
         motion_derivative: &|phi| motion.derivative(phi),
         driver_cycle: motion.driver_period() * f64::from(cycle_periods(&motion)),
+        control: Control::unwatched(),
     };
     let summary = analyse(&input, &ContactOptions::default())?.summary;
     let degrees = summary.transmission_error.as_ref();

@@ -7,6 +7,7 @@
 //! clearance.
 
 use anyhow::Context;
+use centrode::control::Control;
 use centrode::design::{DesignOptions, ToothCount, design};
 use centrode::geometry::Point;
 use centrode::input::{LoadOptions, load};
@@ -87,6 +88,7 @@ fn contact(
         motion: &|phi| motion.psi(phi),
         motion_derivative: &|phi| motion.derivative(phi),
         driver_cycle: motion.driver_period() * f64::from(cycle_periods(motion)),
+        control: Control::unwatched(),
     };
     Ok(analyse(&input, &ContactOptions::default())?.summary)
 }

@@ -6,6 +6,7 @@
 //! (two driver turns for one of the follower, psi' = 0.5 (1 + 0.3 cos phi)). The file has the fields of
 //! `design.json` that describe gears and motion, and psi' as it was sampled.
 
+use centrode::control::Control;
 use std::f64::consts::TAU;
 
 use anyhow::{Context, bail};
@@ -52,6 +53,7 @@ fn main() -> anyhow::Result<()> {
         motion: &|phi| motion.psi(phi),
         motion_derivative: &|phi| motion.derivative(phi),
         driver_cycle: cycle,
+        control: Control::unwatched(),
     };
     let contact = analyse(&input, &ContactOptions::default())?.summary;
     let error = contact.transmission_error.context("the gears never touch")?;

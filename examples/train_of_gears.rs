@@ -3,6 +3,7 @@
 //! usage: cargo run --example train_of_gears
 
 use centrode::assembly::{Layout, PairModel, SampledMotion, TrainPlan};
+use centrode::control::Control;
 use centrode::design::{DesignOptions, from_motion};
 use centrode::gear::Pair;
 use centrode::law::{LawOptions, Preset};
@@ -23,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bend = Layout::ZigZag(40_f64.to_radians());
     let train = TrainPlan::chain(pair, 5, bend, made.assembly.thickness)?.assemble()?;
 
-    let play = train_play(&train.assembly, 90)?;
+    let play = train_play(&train.assembly, 90, Control::unwatched())?;
     for (placed, play) in train.assembly.gears.iter().zip(&play.accumulated) {
         println!(
             "{} at ({:.0}, {:.0}) mm, play up to {:.2} degrees",

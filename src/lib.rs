@@ -40,6 +40,7 @@
 
 pub mod assembly;
 pub mod check;
+pub mod control;
 pub mod design;
 pub mod export;
 pub mod fit;

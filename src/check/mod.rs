@@ -13,6 +13,7 @@ pub use axis::AxisSource;
 pub use error::CheckError;
 pub use motion::{MotionFileError, motion_from_columns};
 
+use crate::control::Control;
 use crate::gear::Side;
 use crate::geometry::Point;
 use crate::input::{PairRecord, Toothed};
@@ -92,6 +93,8 @@ pub struct CheckOptions {
     pub runs: Vec<DynamicsOptions>,
     /// Where a pair fails.
     pub limits: Limits,
+    /// Who may stop the work and hears how far it is.
+    pub control: Control,
 }
 
 /// What was found. Lengths mm, angles radians.
@@ -258,6 +261,7 @@ fn judged(
         motion: &psi,
         motion_derivative: &slope,
         driver_cycle: law.cycle,
+        control: &options.control,
     };
     let analysis = analyse(&input, &options.contact)?;
     let teeth = [pair.teeth[0].count, pair.teeth[1].count];

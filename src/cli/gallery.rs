@@ -389,7 +389,8 @@ fn without_teeth(
     follower: &Shape,
     options: &DesignOptions,
 ) -> anyhow::Result<(Figures, Thumbnail)> {
-    let fitted = fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
+    let fitted =
+        fit(&driver.outline, &follower.outline, options.ratio, &options.fit, &options.control)?;
     let centrodes = Centrodes { transmission: fitted.transmission.clone(), center_distance: 1.0 };
     let curves = [
         centrodes.driver_curve(policy::PITCH_CURVE_POINTS),

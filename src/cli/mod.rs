@@ -24,6 +24,7 @@ mod version;
 
 pub(crate) use args::Cli;
 use args::Command;
+use centrode::control::Control;
 use centrode::policy;
 use clap::error::ErrorKind;
 use std::ffi::OsString;
@@ -57,11 +58,12 @@ pub(crate) fn run(cli: &Cli) -> anyhow::Result<Outcome> {
     if cli.quiet {
         progress::silence();
     }
+    let mut control = Control::new();
     if let Some(count) = cli.threads {
-        rayon::ThreadPoolBuilder::new().num_threads(usize::from(count)).build_global()?;
+        control = control.with_threads(usize::from(count))?;
     }
     let words: Vec<OsString> = std::env::args_os().collect();
-    carry_out(cli, &words)
+    control.run(|| carry_out(cli, &words))
 }
 
 /// Carries out a command line; `words` is what was parsed into `cli`.

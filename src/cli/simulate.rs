@@ -1,5 +1,6 @@
 //! `centrode simulate`: a saved design run again as rigid bodies.
 
+use centrode::control::Control;
 use std::io::Write;
 
 use anyhow::Context;
@@ -30,6 +31,7 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
         motion: &|angle| motion.psi(angle),
         motion_derivative: &|angle| motion.derivative(angle),
         driver_cycle: saved.driver_angle.last().copied().unwrap_or(std::f64::consts::TAU),
+        control: Control::unwatched(),
     };
     let analysis = analyse(&contact, &ContactOptions::default())?;
     progress.doing("running the gears");

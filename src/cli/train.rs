@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, bail};
 use centrode::assembly::{Assembly, Layout, PairModel, Train, TrainError, TrainPlan};
+use centrode::control::Control;
 use centrode::design::{SavedDesign, read_train};
 use centrode::export::{ExportError, Parts, Staging, check_folder, write_json};
 use centrode::meshing::{
@@ -89,12 +90,12 @@ pub(crate) fn run(args: &TrainArgs) -> anyhow::Result<Outcome> {
     check_folder(&args.output)?;
     let assembly = &train.assembly;
     progress.doing("measuring the play of every mesh");
-    let play = train_play(assembly, policy::TRAIN_PLAY_POSES)?;
+    let play = train_play(assembly, policy::TRAIN_PLAY_POSES, Control::unwatched())?;
     let mut runs = Vec::new();
     if !args.no_simulate {
         progress.doing(format!("running {} gears", assembly.gears.len()));
         for options in run_options(args, assembly.thickness) {
-            runs.push(simulate_train(assembly, &options)?);
+            runs.push(simulate_train(assembly, &options, Control::unwatched())?);
         }
     }
     let (faults, warnings) = judge_train(assembly, &play, &runs);

@@ -7,6 +7,7 @@ use super::{
     placed_input,
 };
 use crate::assembly::{Assembly, Fittings, Gear};
+use crate::control::Control;
 use crate::fit;
 use crate::gear::Side;
 use crate::geometry::{self, Point};
@@ -94,6 +95,7 @@ impl Attempt {
                 .root_clearance
                 .map_or(TeethOptions::default().root_clearance, |mm| mm / module),
             chord_tolerance: options.chord_tolerance,
+            control: options.control.clone(),
             ..TeethOptions::default()
         };
         let pair = match options.style {
@@ -114,11 +116,25 @@ impl Attempt {
         };
         let finished = [inset(&pair.driver)?, inset(&pair.follower)?];
         let poses = policy::CONTACT_POSES_TRIED;
-        let exact = contact(None, poses, &centrodes, module, [&pair.driver, &pair.follower])?;
+        let exact = contact(
+            None,
+            poses,
+            &centrodes,
+            module,
+            [&pair.driver, &pair.follower],
+            &options.control,
+        )?;
         let contact = if options.clearance == 0.0 {
             exact.clone()
         } else {
-            contact(None, poses, &centrodes, module, [&finished[0], &finished[1]])?
+            contact(
+                None,
+                poses,
+                &centrodes,
+                module,
+                [&finished[0], &finished[1]],
+                &options.control,
+            )?
         };
         let drawn =
             policy::CARVE_SKIN + 2.0 * options.chord_tolerance - 2.0 * options.clearance / module;
@@ -146,21 +162,21 @@ impl Attempt {
         let poses = policy::CONTACT_POSES;
         let (centrodes, module) = (&self.centrodes, self.pair.module);
         let gears = [&self.pair.driver, &self.pair.follower];
-        self.exact = contact(Some(self.exact), poses, centrodes, module, gears)?;
+        self.exact = contact(Some(self.exact), poses, centrodes, module, gears, &options.control)?;
         self.contact = if options.clearance == 0.0 {
             self.exact.clone()
         } else {
             let gears = [&self.finished[0], &self.finished[1]];
-            contact(Some(self.contact), poses, centrodes, module, gears)?
+            contact(Some(self.contact), poses, centrodes, module, gears, &options.control)?
         };
         if options.clearance > 0.0 {
-            self.relieve()?;
+            self.relieve(&options.control)?;
         }
         Ok(self)
     }
 
     /// Carves from the follower what would catch under load.
-    fn relieve(&mut self) -> Result<(), DesignError> {
+    fn relieve(&mut self, control: &Control) -> Result<(), DesignError> {
         let (centrodes, module) = (&self.centrodes, self.pair.module);
         let t = &centrodes.transmission;
         let cycle = t.driver_period() * f64::from(teeth::cycle_periods(t));
@@ -184,7 +200,7 @@ impl Attempt {
             self.relief.1 = self.relief.1.max(made.worst);
             self.finished[1] = made.follower;
             let gears = [&self.finished[0], &self.finished[1]];
-            self.contact = contact(None, policy::CONTACT_POSES, centrodes, module, gears)?;
+            self.contact = contact(None, policy::CONTACT_POSES, centrodes, module, gears, control)?;
         }
         if self.relief.0 > 0 {
             // What ends at another point by rounding would be an edge of no length.
@@ -196,7 +212,8 @@ impl Attempt {
             if let [Some(driver), Some(follower)] = lowered {
                 self.finished = [driver, follower];
                 let gears = [&self.finished[0], &self.finished[1]];
-                self.contact = contact(None, policy::CONTACT_POSES, centrodes, module, gears)?;
+                self.contact =
+                    contact(None, policy::CONTACT_POSES, centrodes, module, gears, control)?;
             }
         }
         Ok(())
@@ -487,6 +504,7 @@ fn contact(
     centrodes: &Centrodes,
     module: f64,
     [driver, follower]: [&Profile; 2],
+    control: &Control,
 ) -> Result<ContactAnalysis, DesignError> {
     let transmission = &centrodes.transmission;
     let input = ContactInput {
@@ -497,6 +515,7 @@ fn contact(
         motion: &|phi| transmission.psi(phi),
         motion_derivative: &|phi| transmission.derivative(phi),
         driver_cycle: transmission.driver_period() * f64::from(teeth::cycle_periods(transmission)),
+        control,
     };
     let options = ContactOptions { poses, ..ContactOptions::default() };
     Ok(match known {

@@ -120,6 +120,7 @@ impl Design {
             motion: &|phi| transmission.psi(phi),
             motion_derivative: &|phi| transmission.derivative(phi),
             driver_cycle: cycle,
+            control: &self.options.control,
         }))
     }
 
@@ -222,7 +223,13 @@ pub fn design(
             fit: fit::FitOptions { limits, ..options.fit.clone() },
             ..options.clone()
         };
-        let fit = fit::fit(&driver.outline, &follower.outline, options.ratio, &options.fit)?;
+        let fit = fit::fit(
+            &driver.outline,
+            &follower.outline,
+            options.ratio,
+            &options.fit,
+            &options.control,
+        )?;
         let source = Source::fitted([driver, follower], fit, options.fit.symmetric);
         let mut made = tried(&source, &options)?.made;
         made.proved()?;
@@ -292,7 +299,7 @@ pub fn from_motion(
 /// As [`design`].
 pub fn mate(shape: &Shape, options: &DesignOptions) -> Result<Design, DesignError> {
     check(options)?;
-    let mated = fit::mate(&shape.outline, options.ratio, &options.fit)?;
+    let mated = fit::mate(&shape.outline, options.ratio, &options.fit, &options.control)?;
     made_from(&Source::mated(shape, mated), options)
 }
 

@@ -1,6 +1,7 @@
 //! What a design can be told, and why it may fail.
 
 use super::outfit::{Outfit, OutfitError};
+use crate::control::Control;
 use crate::fit::{FitError, FitOptions, LimitError, Ratio};
 use crate::law::Segment;
 use crate::meshing::ContactError;
@@ -100,6 +101,8 @@ pub struct DesignOptions {
     pub sector: Option<Segment>,
     /// Load for the look at strength; the runs have their own.
     pub load: Load,
+    /// Who may stop the work and hears how far it is.
+    pub control: Control,
 }
 
 impl DesignOptions {
@@ -130,6 +133,7 @@ impl DesignOptions {
             quick: false,
             sector: None,
             load: Load::default(),
+            control: Control::unwatched().clone(),
         }
     }
 }

@@ -13,6 +13,7 @@ use super::align::{Aligner, LongSpectrum, ShortSpectrum};
 use super::limits::{Limits, apply};
 use super::objective::{Candidate, Problem, greatest};
 use super::{paper_search, refine};
+use crate::control::StageName;
 use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::policy;
@@ -36,7 +37,9 @@ pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
     // Rounding corners costs little and hardly depends on the centres, but is slow to work out: only the finalists are judged by it.
     let limits = Limits { max_curvature: None, ..*problem.limits };
     let unrounded = problem.with_limits(&limits);
+    problem.control.progress(StageName::Wanted, 0.1);
     let (mut finalists, seeds, scan_pairs) = finalists(&unrounded, paper);
+    problem.control.progress(StageName::Wanted, 0.5);
     finalists.extend(paper);
     let judged: Vec<(f64, Candidate)> =
         finalists.par_iter().map(|c| (problem.total(c), *c)).collect();
@@ -57,6 +60,7 @@ fn finalists(
         .clamp(policy::SCAN_SAMPLES_LEAST, policy::SCAN_SAMPLES / 2);
     let coarse = problem.resampled((&thin.0, &thin.1), coarse_samples.next_power_of_two());
     let (seeds, scan_pairs, spacing) = scan(&coarse);
+    problem.control.progress(StageName::Wanted, 0.3);
     let ranked = |candidates: Vec<Candidate>, kept: usize| {
         let mut scored: Vec<(f64, Candidate)> =
             candidates.into_par_iter().map(|c| (problem.total(&c), c)).collect();
@@ -138,6 +142,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
     let shorts: Vec<(Point, ShortSpectrum, f64)> = short_grid
         .into_par_iter()
         .filter_map(|c| {
+            problem.control.check().ok()?;
             let (law, lost) = problem.whole_turn(short_side, c).ok()?;
             Some((c, aligner.short(law), problem.lost_cost(short_side, lost)))
         })
@@ -145,6 +150,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
     let longs: Vec<(Point, LongSpectrum, f64)> = long_grid
         .into_par_iter()
         .filter_map(|c| {
+            problem.control.check().ok()?;
             let (law, lost) = problem.whole_turn(long_side, c).ok()?;
             Some((c, aligner.long(law, mean, true), problem.lost_cost(long_side, lost)))
         })
@@ -163,6 +169,9 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
             |scratch, (i, (_, short, short_lost))| {
                 let mut row: Vec<Pair> = Vec::new();
                 for (j, (_, long, long_lost)) in longs.iter().enumerate() {
+                    if problem.control.is_cancelled() {
+                        break;
+                    }
                     let follower = if short_side == Side::Driver { j } else { i };
                     let at = match shifts[follower] {
                         Some(shift) => aligner.at(short, long, shift),
@@ -206,6 +215,7 @@ fn scan(problem: &Problem<'_>) -> (Vec<Candidate>, usize, (f64, f64)) {
             .par_iter()
             .filter(|p| p.delta + problem.weight * mean < worst)
             .filter_map(|p| {
+                problem.control.check().ok()?;
                 let window =
                     longs[p.long as usize].1.window(p.shift as usize, problem.samples, mean);
                 let blend = problem.blend(&shorts[p.short as usize].1.law, window);

@@ -8,6 +8,7 @@ use super::limits::{LimitCost, Limits, apply};
 use super::objective::{folding_cost, greatest};
 use super::placement::{FittedGear, Similarity};
 use super::{FitError, FitOptions, Ratio, check, refine};
+use crate::control::{Control, StageName};
 use crate::geometry::{self, Point};
 use crate::outline::Outline;
 use crate::pitch::{Centrodes, PolarCurve, Transmission, driver_law};
@@ -45,6 +46,7 @@ struct Task<'a> {
     limits: &'a Limits,
     weight: f64,
     samples: usize,
+    control: &'a Control,
 }
 
 impl Task<'_> {
@@ -66,6 +68,9 @@ impl Task<'_> {
     }
 
     fn cost(&self, axis: Point) -> f64 {
+        if self.control.is_cancelled() {
+            return f64::INFINITY;
+        }
         self.seat(axis).map_or(f64::INFINITY, |s| s.cost)
     }
 }
@@ -78,8 +83,25 @@ impl Task<'_> {
 ///
 /// # Errors
 /// See [`FitError`].
-pub fn mate(driver: &Outline, ratio: Ratio, options: &FitOptions) -> Result<Mated, FitError> {
+pub fn mate(
+    driver: &Outline,
+    ratio: Ratio,
+    options: &FitOptions,
+    control: &Control,
+) -> Result<Mated, FitError> {
     check(ratio, options)?;
+    let made = control.run(|| mated(driver, ratio, options, control));
+    control.check()?;
+    control.progress(StageName::Wanted, 1.0);
+    made
+}
+
+fn mated(
+    driver: &Outline,
+    ratio: Ratio,
+    options: &FitOptions,
+    control: &Control,
+) -> Result<Mated, FitError> {
     let points = driver.points();
     let task = Task {
         points,
@@ -87,6 +109,7 @@ pub fn mate(driver: &Outline, ratio: Ratio, options: &FitOptions) -> Result<Mate
         limits: &options.limits,
         weight: options.weight,
         samples: options.samples,
+        control,
     };
     let folds = (ratio.driver_fold(), ratio.follower_fold());
     apply(&[1.0; policy::MIN_TRANSMISSION_SAMPLES], folds, &options.limits)?;
@@ -125,6 +148,7 @@ fn best_axis(task: &Task<'_>) -> Option<Point> {
     let middle = geometry::centroid(&points);
     let mut seats: Vec<(f64, Point)> =
         grid.into_par_iter().chain([middle]).map(|p| (scan.cost(p), p)).collect();
+    task.control.progress(StageName::Wanted, 0.5);
     seats.retain(|s| s.0.is_finite());
     seats.sort_by(|a, b| a.0.total_cmp(&b.0));
     seats.truncate(policy::MATE_STARTS);
@@ -168,7 +192,8 @@ mod tests {
     fn an_ellipse_about_its_focus_mates_with_its_twin() {
         let e = 0.4;
         let ellipse = polar(4000, |t| (1.0 - e * e) / (1.0 + e * t.cos()));
-        let mated = mate(&ellipse, Ratio::ONE, &about(Point::origin())).unwrap();
+        let mated =
+            mate(&ellipse, Ratio::ONE, &about(Point::origin()), Control::unwatched()).unwrap();
         for k in 0..40 {
             let phi = 0.16 * f64::from(k);
             let exact = (1.0 - e * e) / (1.0 + 2.0 * e * phi.cos() + e * e);
@@ -181,7 +206,7 @@ mod tests {
     fn the_best_axis_of_a_lobed_wheel_is_its_middle() {
         let wheel = polar(900, |t| 2.0 + 0.4 * (3.0 * t).cos());
         for ratio in [Ratio::ONE, Ratio::rational(2, 3).unwrap()] {
-            let mated = mate(&wheel, ratio, &FitOptions::default()).unwrap();
+            let mated = mate(&wheel, ratio, &FitOptions::default(), Control::unwatched()).unwrap();
             let off = (mated.driver.center_in_input - Point::origin()).norm();
             assert!(off < 0.05, "{ratio}: {off}");
             assert!((mated.transmission.ratio() - ratio.value()).abs() < 1e-12);
@@ -191,7 +216,8 @@ mod tests {
     #[test]
     fn an_axis_outside_is_refused() {
         let wheel = polar(300, |_| 2.0);
-        let error = mate(&wheel, Ratio::ONE, &about(Point::new(3.0, 0.0))).unwrap_err();
+        let error = mate(&wheel, Ratio::ONE, &about(Point::new(3.0, 0.0)), Control::unwatched())
+            .unwrap_err();
         assert!(error.to_string().contains("(3.0000, 0.0000)"), "{error}");
     }
 }

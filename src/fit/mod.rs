@@ -28,6 +28,7 @@ pub use polish::Refinement;
 pub use ratio::{Ratio, RatioError};
 pub use symmetric::{Symmetric, symmetrised};
 
+use crate::control::{Cancelled, Control, StageName};
 use crate::gear::Side;
 use crate::outline::Outline;
 use crate::pitch::{PolarError, Transmission, TransmissionError};
@@ -140,6 +141,9 @@ pub enum FitError {
         "no pair of rotation centres inside the shapes makes a law; use shapes that are less thin"
     )]
     NoCenter,
+    /// The search was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// A shape cannot be seen from its centre.
     #[error(transparent)]
     Polar(#[from] PolarError),
@@ -174,7 +178,8 @@ pub struct Fit {
 
 /// Finds rotation centres in both shapes and the motion that changes the shapes least.
 ///
-/// The drawings may have any unit and size; only their forms matter. The same input always gives the same result.
+/// The drawings may have any unit and size; only their forms matter. The same input always gives the same result, on any
+/// number of threads.
 ///
 /// # Errors
 /// See [`FitError`].
@@ -183,8 +188,24 @@ pub fn fit(
     follower: &Outline,
     ratio: Ratio,
     options: &FitOptions,
+    control: &Control,
 ) -> Result<Fit, FitError> {
     check(ratio, options)?;
+    control.progress(StageName::Wanted, 0.0);
+    let made = control.run(|| fitted(driver, follower, ratio, options, control));
+    // Whatever a search says that was given up half way is not worth hearing.
+    control.check()?;
+    control.progress(StageName::Wanted, 1.0);
+    made
+}
+
+fn fitted(
+    driver: &Outline,
+    follower: &Outline,
+    ratio: Ratio,
+    options: &FitOptions,
+    control: &Control,
+) -> Result<Fit, FitError> {
     if !ratio.is_whole() {
         return Err(FitError::Rational { ratio });
     }
@@ -200,7 +221,7 @@ pub fn fit(
         };
         return match need {
             Some(need) => Err(FitError::Symmetric { need }),
-            None => symmetric::fit_symmetric(driver, options),
+            None => symmetric::fit_symmetric(driver, options, control),
         };
     }
     let shapes = (driver.points(), follower.points());
@@ -211,7 +232,8 @@ pub fn fit(
         (options.weight, options.balance, options.star_weight),
         options.samples,
     )
-    .with_fixed(options.fixed);
+    .with_fixed(options.fixed)
+    .with_control(control);
     for (side, axis) in
         [(Side::Driver, options.fixed.driver_axis), (Side::Follower, options.fixed.follower_axis)]
     {
@@ -226,6 +248,7 @@ pub fn fit(
         Search::Paper => paper_search::search(&problem),
         Search::Global => global_search::search(&problem),
     };
+    control.check()?;
     let winner = found.first().ok_or(FitError::NoCenter)?;
     let fit = placement::place(&problem, winner, pairs_scored)?;
     // What is fixed must stay where it was put.

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::laws::{Law, directions};
 use super::limits::{LimitCost, Limits, apply};
 use super::{FitError, Ratio};
+use crate::control::Control;
 use crate::gear::Side;
 use crate::geometry::{Point, Vector};
 use crate::pitch::PolarError;
@@ -59,6 +60,8 @@ pub(super) struct Problem<'a> {
     /// Samples of one period.
     pub(super) samples: usize,
     pub(super) fixed: Fixed,
+    /// Whose search it is.
+    pub(super) control: &'a Control,
     driver_rays: Vec<Vector>,
     follower_rays: Vec<Vector>,
 }
@@ -114,6 +117,7 @@ impl<'a> Problem<'a> {
             star_weight,
             samples,
             fixed: Fixed::default(),
+            control: Control::unwatched(),
             driver_rays: rays(ratio.driver_fold()),
             follower_rays: rays(ratio.follower_fold()),
         }
@@ -127,6 +131,7 @@ impl<'a> Problem<'a> {
     ) -> Problem<'a> {
         Problem::new(shapes, self.ratio, self.limits, self.weights(), samples)
             .with_fixed(self.fixed)
+            .with_control(self.control)
     }
 
     /// The same under other limits.
@@ -137,11 +142,18 @@ impl<'a> Problem<'a> {
         let shapes: (&'b [Point], &'b [Point]) = (self.driver, self.follower);
         Problem::new(shapes, self.ratio, limits, self.weights(), self.samples)
             .with_fixed(self.fixed)
+            .with_control(self.control)
     }
 
     /// The same with choices that are not to be searched.
     pub(super) fn with_fixed(mut self, fixed: Fixed) -> Self {
         self.fixed = fixed;
+        self
+    }
+
+    /// The same under a control: once that is cancelled every candidate is infinitely bad.
+    pub(super) fn with_control(mut self, control: &'a Control) -> Self {
+        self.control = control;
         self
     }
 
@@ -263,6 +275,9 @@ impl<'a> Problem<'a> {
 
     /// E of a candidate; infinite for one that makes no pair.
     pub(super) fn total(&self, candidate: &Candidate) -> f64 {
+        if self.control.is_cancelled() {
+            return f64::INFINITY;
+        }
         self.score(candidate).map_or(f64::INFINITY, |s| s.objective.total)
     }
 

@@ -60,9 +60,11 @@ pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
     let mut scored = 0;
     for _ in 0..policy::PAPER_DEPTH {
         let shorts: Vec<Seat<ShortSpectrum>> = seats(&parents.0, |c| {
+            live(problem)?;
             problem.whole_turn(short_side, c).ok().map(|(law, _)| aligner.short(law))
         });
         let longs: Vec<Seat<LongSpectrum>> = seats(&parents.1, |c| {
+            live(problem)?;
             problem.whole_turn(long_side, c).ok().map(|(law, _)| aligner.long(law, mean, false))
         });
         scored += shorts.len() * longs.len();
@@ -73,6 +75,7 @@ pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
                 |scratch, short| {
                     longs
                         .iter()
+                        .take_while(|_| live(problem).is_some())
                         .map(|long| {
                             let follower = match short_side {
                                 Side::Driver => long.cell.center(),
@@ -115,6 +118,11 @@ pub(super) fn search(problem: &Problem<'_>) -> (Vec<Candidate>, usize) {
         })
     });
     (candidates.collect(), scored)
+}
+
+/// None once the search is cancelled: what it has found is then dropped.
+fn live(problem: &Problem<'_>) -> Option<()> {
+    problem.control.check().ok()
 }
 
 fn seats<T: Send>(parents: &[Cell], make: impl Fn(Point) -> Option<T> + Sync) -> Vec<Seat<T>> {

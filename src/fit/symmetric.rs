@@ -15,6 +15,7 @@ use super::limits::{LimitCost, apply};
 use super::objective::Objective;
 use super::placement::{FittedGear, Similarity};
 use super::{Fit, FitError, FitOptions};
+use crate::control::{Control, StageName};
 use crate::geometry::{self, Point};
 use crate::outline::Outline;
 use crate::pitch::{Centrodes, PolarCurve, Transmission, driver_law};
@@ -200,7 +201,12 @@ struct Seat {
     total: f64,
 }
 
-fn seat(points: &[Point], axis: Point, options: &FitOptions) -> Result<Seat, FitError> {
+fn seat(
+    points: &[Point],
+    axis: Point,
+    options: &FitOptions,
+    control: &Control,
+) -> Result<Seat, FitError> {
     let curve = PolarCurve::along(points, axis, &directions(options.samples))?;
     let raw = driver_law(curve.radii(), curve.center_distance(1.0));
     let whole = Transmission::from_derivative(&raw, 1, 1)?;
@@ -211,6 +217,7 @@ fn seat(points: &[Point], axis: Point, options: &FitOptions) -> Result<Seat, Fit
     let mut first = None;
     let mut torque = 0.0;
     for _ in 0..policy::SYMMETRIC_ROUNDS {
+        control.check()?;
         let (limited, cost) = apply(&law, (1, 1), &limits)?;
         first.get_or_insert(cost);
         let made = resampled(&limited, policy::SYMMETRIC_SAMPLES_JUDGED)?;
@@ -238,7 +245,11 @@ fn seat(points: &[Point], axis: Point, options: &FitOptions) -> Result<Seat, Fit
 ///
 /// # Errors
 /// See [`FitError`].
-pub(super) fn fit_symmetric(shape: &Outline, options: &FitOptions) -> Result<Fit, FitError> {
+pub(super) fn fit_symmetric(
+    shape: &Outline,
+    options: &FitOptions,
+    control: &Control,
+) -> Result<Fit, FitError> {
     let points = shape.points();
     let thin = thinned(points);
     let (axes, scored) = match options.fixed.driver_axis.or(options.fixed.follower_axis) {
@@ -246,6 +257,7 @@ pub(super) fn fit_symmetric(shape: &Outline, options: &FitOptions) -> Result<Fit
         None => {
             let rays = directions(policy::MATE_SCAN_SAMPLES);
             let rough = |axis: Point| -> Option<f64> {
+                control.check().ok()?;
                 let curve = PolarCurve::along(&thin, axis, &rays).ok()?;
                 let law = driver_law(curve.radii(), curve.center_distance(1.0));
                 let law = Transmission::from_derivative(&law, 1, 1).ok()?;
@@ -265,8 +277,12 @@ pub(super) fn fit_symmetric(shape: &Outline, options: &FitOptions) -> Result<Fit
     };
     let mut best: Option<(Point, Seat)> = None;
     let mut refused = FitError::NoCenter;
+    let meter = control.meter(StageName::Wanted, axes.len());
     for axis in axes {
-        match seat(points, axis, options) {
+        let made = seat(points, axis, options, control);
+        control.check()?;
+        meter.add(1);
+        match made {
             Ok(made) if best.as_ref().is_none_or(|b| made.total < b.1.total) => {
                 best = Some((axis, made));
             }
@@ -362,17 +378,20 @@ mod tests {
     #[test]
     fn a_shape_is_fitted_to_itself() {
         let options = FitOptions { symmetric: true, samples: 256, ..FitOptions::default() };
-        let made = fit(&egg(), &egg(), Ratio::ONE, &options).unwrap();
+        let made = fit(&egg(), &egg(), Ratio::ONE, &options, Control::unwatched()).unwrap();
         let turn = made.follower.placement.angle;
         assert!(apart(&made.transmission, turn) < 1e-9, "{}", apart(&made.transmission, turn));
         assert!((made.driver.iou - made.follower.iou).abs() < 1e-6);
         assert!(made.driver.iou > 0.9, "{}", made.driver.iou);
         let round = Outline::new(egg().points().iter().map(|p| p * 2.0).collect()).unwrap();
         assert!(matches!(
-            fit(&egg(), &round, Ratio::ONE, &options),
+            fit(&egg(), &round, Ratio::ONE, &options, Control::unwatched()),
             Err(FitError::Symmetric { .. })
         ));
         let two = Ratio::integer(2).unwrap();
-        assert!(matches!(fit(&egg(), &egg(), two, &options), Err(FitError::Symmetric { .. })));
+        assert!(matches!(
+            fit(&egg(), &egg(), two, &options, Control::unwatched()),
+            Err(FitError::Symmetric { .. })
+        ));
     }
 }

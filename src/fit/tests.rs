@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::control::Control;
 use crate::geometry::{Point, rotate};
 use crate::pitch::Centrodes;
 
@@ -37,7 +38,8 @@ fn circles_fit_circles() {
     for search in [Search::Paper, Search::Global] {
         for ratio in ["1", "2", "1/3"] {
             let ratio: Ratio = ratio.parse().unwrap();
-            let fit = fit(&circle(), &circle(), ratio, &quick(search)).unwrap();
+            let fit =
+                fit(&circle(), &circle(), ratio, &quick(search), Control::unwatched()).unwrap();
             let expected = 0.2 / ratio.value();
             assert!(
                 fit.objective.total < expected * 1.005,
@@ -53,7 +55,8 @@ fn circles_fit_circles() {
 #[test]
 fn squares_resemble_squares() {
     for search in [Search::Paper, Search::Global] {
-        let fit = fit(&square(), &square(), Ratio::ONE, &quick(search)).unwrap();
+        let fit =
+            fit(&square(), &square(), Ratio::ONE, &quick(search), Control::unwatched()).unwrap();
         assert!(
             fit.driver.iou > 0.9 && fit.follower.iou > 0.9,
             "{} {}",
@@ -88,7 +91,7 @@ fn a_shape_and_its_exact_mate_fit_without_loss() {
         let driver = away(pair.driver_curve(360 * d as usize), 12.0, 0.0);
         let follower = away(pair.follower_curve(360 * f), 3.0, 2.1);
         let options = FitOptions { weight: 0.0, ..quick(Search::Global) };
-        let fit = fit(&driver, &follower, ratio, &options).unwrap();
+        let fit = fit(&driver, &follower, ratio, &options, Control::unwatched()).unwrap();
         assert!(fit.objective.shape < 2e-3, "{ratio} {:?}", fit.objective);
         assert!(
             fit.driver.iou > 0.98 && fit.follower.iou > 0.98,
@@ -110,7 +113,7 @@ fn pitch_curves_lie_on_the_drawings() {
             balance: if ratio.value() < 1.0 { 0.0 } else { 1.0 },
             ..quick(Search::Paper)
         };
-        let fit = fit(&egg(), &egg(), ratio, &options).unwrap();
+        let fit = fit(&egg(), &egg(), ratio, &options, Control::unwatched()).unwrap();
         // The gear whose shape is kept and which is not made periodic is its drawing.
         let kept = if ratio.value() < 1.0 { fit.follower } else { fit.driver };
         assert!(kept.iou > 0.995, "{ratio} {}", kept.iou);
@@ -128,8 +131,12 @@ fn global_is_never_above_paper() {
                 Limits { max_curvature: Some(40.0), max_lean: 0.4, ..Limits::default() },
             ] {
                 let with = |search| FitOptions { limits, samples: 96, ..quick(search) };
-                let paper = fit(driver, follower, Ratio::ONE, &with(Search::Paper)).unwrap();
-                let global = fit(driver, follower, Ratio::ONE, &with(Search::Global)).unwrap();
+                let paper =
+                    fit(driver, follower, Ratio::ONE, &with(Search::Paper), Control::unwatched())
+                        .unwrap();
+                let global =
+                    fit(driver, follower, Ratio::ONE, &with(Search::Global), Control::unwatched())
+                        .unwrap();
                 assert!(global.objective.total <= paper.objective.total + 1e-12);
                 let Objective {
                     total,
@@ -155,8 +162,8 @@ fn size_place_and_unit_do_not_matter() {
     let moved = egg().map(|p| rotate(*p, 0.0) * 25.4 + crate::geometry::Vector::new(-300.0, 11.0));
     let options = quick(Search::Global);
     let (a, b) = (
-        fit(&egg(), &square(), Ratio::ONE, &options).unwrap(),
-        fit(&moved, &square(), Ratio::ONE, &options).unwrap(),
+        fit(&egg(), &square(), Ratio::ONE, &options, Control::unwatched()).unwrap(),
+        fit(&moved, &square(), Ratio::ONE, &options, Control::unwatched()).unwrap(),
     );
     assert!((a.objective.total - b.objective.total).abs() < 1e-3 * a.objective.total);
 }
@@ -164,7 +171,9 @@ fn size_place_and_unit_do_not_matter() {
 #[test]
 fn meaningless_options_are_refused() {
     let base = quick(Search::Paper);
-    let refuse = |options: FitOptions| fit(&circle(), &circle(), Ratio::ONE, &options).unwrap_err();
+    let refuse = |options: FitOptions| {
+        fit(&circle(), &circle(), Ratio::ONE, &options, Control::unwatched()).unwrap_err()
+    };
     assert!(matches!(
         refuse(FitOptions { balance: 1.2, ..base.clone() }),
         FitError::Balance { .. }

@@ -9,6 +9,7 @@
 
 use super::play::{Body, Play, Pose, Touch, free_play};
 use super::summary::ContactSummary;
+use crate::control::{Cancelled, Control, Meter, StageName};
 use crate::gear::Side;
 use crate::geometry::{Point, Vector, cross, perimeter};
 use crate::policy;
@@ -32,6 +33,8 @@ pub struct ContactInput<'a> {
     pub motion_derivative: &'a (dyn Fn(f64) -> f64 + Sync),
     /// Driver angle of one whole cycle of both gears, radians (2 pi K for integer K).
     pub driver_cycle: f64,
+    /// Who may stop the work and hears how far it is.
+    pub control: &'a Control,
 }
 
 impl std::fmt::Debug for ContactInput<'_> {
@@ -71,6 +74,9 @@ impl Default for ContactOptions {
 /// Why an analysis cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ContactError {
+    /// The work was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// An outline has no area.
     #[error("the {gear} has {count} points; give an outline of at least three")]
     TooFewPoints {
@@ -209,7 +215,8 @@ fn analyse_from(
     let angles: Vec<f64> = (known.len()..options.poses)
         .map(|i| ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract() * input.driver_cycle)
         .collect();
-    let mut poses = poses_at(input, options, &angles)?;
+    let meter = input.control.meter(StageName::Analysed, angles.len());
+    let mut poses = poses_counted(input, options, &angles, Some(&meter))?;
     poses.extend(known);
     poses.sort_by(|a, b| a.driver_angle.total_cmp(&b.driver_angle));
     let summary = ContactSummary::new(&poses, input.driver_cycle);
@@ -226,13 +233,31 @@ pub fn poses_at(
     driver_angles: &[f64],
 ) -> Result<Vec<ContactPose>, ContactError> {
     check(input, options)?;
+    poses_counted(input, options, driver_angles, None)
+}
+
+fn poses_counted(
+    input: &ContactInput<'_>,
+    options: &ContactOptions,
+    driver_angles: &[f64],
+    meter: Option<&Meter<'_>>,
+) -> Result<Vec<ContactPose>, ContactError> {
     let spacing = policy::CONTACT_PROBE_SPACING * input.module;
-    let (driver, follower) =
-        rayon::join(|| Body::new(input.driver, spacing), || Body::new(input.follower, spacing));
-    driver_angles
-        .par_iter()
-        .map(|&angle| pose_at(input, options, &driver, &follower, angle))
-        .collect()
+    input.control.run(|| {
+        let (driver, follower) =
+            rayon::join(|| Body::new(input.driver, spacing), || Body::new(input.follower, spacing));
+        driver_angles
+            .par_iter()
+            .map(|&angle| {
+                input.control.check()?;
+                let pose = pose_at(input, options, &driver, &follower, angle);
+                if let Some(meter) = meter {
+                    meter.add(1);
+                }
+                pose
+            })
+            .collect()
+    })
 }
 
 fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), ContactError> {

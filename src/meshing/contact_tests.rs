@@ -1,4 +1,5 @@
 use super::*;
+use crate::control::Control;
 use crate::meshing::spur::Spur;
 use std::f64::consts::TAU;
 
@@ -45,6 +46,7 @@ impl Pair {
             motion: &|angle| ratio * angle,
             motion_derivative: &|_| ratio,
             driver_cycle: TAU,
+            control: Control::unwatched(),
         })
     }
 }
@@ -158,6 +160,7 @@ fn one_flank_may_interfere_while_the_other_is_free() {
             motion: &|angle| 0.75 * angle,
             motion_derivative: &|_| 0.75,
             driver_cycle: TAU,
+            control: Control::unwatched(),
         },
         &quick(2e-3),
     )
@@ -230,6 +233,7 @@ fn bad_input_is_refused() {
                 motion: &motion,
                 motion_derivative: &|_| ratio,
                 driver_cycle: TAU,
+                control: Control::unwatched(),
             },
             &quick(2e-3),
         )

@@ -11,6 +11,7 @@ use super::recorder::Recorder;
 use super::summary::WorstPlace;
 use super::touches::Touches;
 use super::world::{World, WorldGear, WorldInput};
+use crate::control::{Cancelled, StageName};
 use crate::gear::Side;
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
@@ -86,6 +87,9 @@ impl Default for DynamicsOptions {
 /// Why a run cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DynamicsError {
+    /// The run was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The pair itself cannot be analysed.
     #[error(transparent)]
     Contact(#[from] ContactError),
@@ -239,13 +243,13 @@ pub fn simulate(
     options: &DynamicsOptions,
 ) -> Result<Dynamics, DynamicsError> {
     check(input, options)?;
+    let plain = &input.contact;
     if options.direction == Direction::Forward {
-        return run(input, options);
+        return plain.control.run(|| run(input, options));
     }
     let mirrored = |outline: &[Point]| -> Vec<Point> {
         outline.iter().rev().map(|p| Point::new(p.x, -p.y)).collect()
     };
-    let plain = &input.contact;
     let (driver, follower) = (mirrored(plain.driver), mirrored(plain.follower));
     let contact = ContactInput {
         driver: &driver,
@@ -254,7 +258,7 @@ pub fn simulate(
         motion_derivative: &|angle| (plain.motion_derivative)(-angle),
         ..*plain
     };
-    let mut made = run(&DynamicsInput { contact, ..*input }, options)?;
+    let mut made = plain.control.run(|| run(&DynamicsInput { contact, ..*input }, options))?;
     made.turn_back();
     Ok(made)
 }
@@ -350,7 +354,10 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
     let tooth = options.steps_per_tooth as usize;
     let mut stopped = (wanted > count as f64).then_some(Stop::TooLong { driver_angle: end });
     let mut before = start;
+    let meter = pair.control.meter(StageName::Proven, count + lead_steps);
     for i in 1..=budget {
+        pair.control.check()?;
+        meter.add(1);
         let sound = world.step();
         let driver_angle = world.angles()[0];
         if !sound {

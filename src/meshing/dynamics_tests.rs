@@ -1,4 +1,5 @@
 use super::*;
+use crate::control::Control;
 use crate::meshing::spur::Spur;
 use crate::meshing::write_csv;
 use std::f64::consts::PI;
@@ -16,6 +17,7 @@ fn run_spurs(options: &DynamicsOptions) -> Dynamics {
         motion: &|a| 0.75 * a,
         motion_derivative: &|_| 0.75,
         driver_cycle: TAU,
+        control: Control::unwatched(),
     };
     simulate(&DynamicsInput { contact, driver_teeth: 24 }, options).unwrap()
 }
@@ -54,6 +56,7 @@ fn bad_options_are_refused() {
         motion: &|a| a,
         motion_derivative: &|_| 1.0,
         driver_cycle: TAU,
+        control: Control::unwatched(),
     };
     let input = DynamicsInput { contact: pair, driver_teeth: 8 };
     assert!(matches!(simulate(&input, &options), Err(DynamicsError::Option { name: "load", .. })));

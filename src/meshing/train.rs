@@ -8,6 +8,7 @@ use super::dynamics::{
 use super::recorder::averaged;
 use super::world::{World, WorldGear, WorldInput};
 use crate::assembly::{Assembly, MotionError, PlacedGear, SampledMotion};
+use crate::control::{Control, StageName};
 use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::policy;
@@ -136,7 +137,11 @@ fn module_of(placed: &PlacedGear) -> f64 {
 ///
 /// # Errors
 /// [`TrainRunError`].
-pub fn train_play(assembly: &Assembly, poses: usize) -> Result<TrainPlay, TrainRunError> {
+pub fn train_play(
+    assembly: &Assembly,
+    poses: usize,
+    control: &Control,
+) -> Result<TrainPlay, TrainRunError> {
     let motions = Motions::new(assembly)?;
     let cycle = motions.0[0].cycle();
     let angles: Vec<f64> =
@@ -144,7 +149,7 @@ pub fn train_play(assembly: &Assembly, poses: usize) -> Result<TrainPlay, TrainR
     let mut meshes = Vec::new();
     let mut all: Vec<(usize, usize, Vec<ContactPose>)> = Vec::new();
     for &[a, b] in &assembly.meshes {
-        let found = mesh_poses(assembly, &motions, [a, b], &angles)?;
+        let found = mesh_poses(assembly, &motions, [a, b], &angles, control)?;
         let play = |p: &ContactPose| p.play_behind + p.play_ahead;
         let free = || found.iter().filter(|p| !p.lost && !p.lost_reversed).map(play);
         meshes.push(MeshPlay {
@@ -179,6 +184,7 @@ fn mesh_poses(
     motions: &Motions,
     [a, b]: [usize; 2],
     driver_angles: &[f64],
+    control: &Control,
 ) -> Result<Vec<ContactPose>, TrainRunError> {
     let (first, second) = (&assembly.gears[a], &assembly.gears[b]);
     let line = second.axis - first.axis;
@@ -210,6 +216,7 @@ fn mesh_poses(
         motion: &motion,
         motion_derivative: &derivative,
         driver_cycle: motions.0[a].psi(motions.0[0].cycle()),
+        control,
     };
     poses_at(&input, &ContactOptions::default(), &angles).map_err(|source| TrainRunError::Contact {
         gears: format!("{} and {}", first.gear.name, second.gear.name),
@@ -226,6 +233,15 @@ fn mesh_poses(
 pub fn simulate_train(
     assembly: &Assembly,
     options: &DynamicsOptions,
+    control: &Control,
+) -> Result<TrainRun, TrainRunError> {
+    control.run(|| run(assembly, options, control))
+}
+
+fn run(
+    assembly: &Assembly,
+    options: &DynamicsOptions,
+    control: &Control,
 ) -> Result<TrainRun, TrainRunError> {
     let motions = Motions::new(assembly)?;
     let cycle = motions.0[0].cycle();
@@ -255,7 +271,7 @@ pub fn simulate_train(
             Some(policy::MOTOR_RESERVE * samples().map(asked).fold(0.0, f64::max))
         }
     };
-    let behind = starting_lag(assembly, &motions, start)?;
+    let behind = starting_lag(assembly, &motions, start, control)?;
     let bodies = gears
         .iter()
         .enumerate()
@@ -269,6 +285,7 @@ pub fn simulate_train(
                 motion: &|phi| motion.psi(phi),
                 motion_derivative: &|phi| motion.derivative(phi),
                 driver_cycle: cycle,
+                control,
             });
             let real = inertia(&placed.gear.outline, options) / options.load;
             WorldGear {
@@ -306,7 +323,10 @@ pub fn simulate_train(
     let budget = (patience * (count + lead) as f64) as usize;
     let mut stopped = (wanted > count as f64).then_some(Stop::TooLong { driver_angle: end });
     let mut before = start;
+    let meter = control.meter(StageName::Proven, count + lead);
     for i in 1..=budget {
+        control.check().map_err(DynamicsError::from)?;
+        meter.add(1);
         let sound = world.step();
         let angles = world.angles().to_vec();
         let phi = angles[0];
@@ -388,13 +408,14 @@ fn starting_lag(
     assembly: &Assembly,
     motions: &Motions,
     start: f64,
+    control: &Control,
 ) -> Result<Vec<f64>, TrainRunError> {
     let mut behind = vec![0.0; assembly.gears.len()];
     for i in 1..assembly.gears.len() {
         if let Some(&[on, _]) = assembly.axles.iter().find(|a| a[1] == i) {
             behind[i] = behind[on];
         } else if let Some(&[on, _]) = assembly.meshes.iter().find(|m| m[1] == i && m[0] < i) {
-            let pose = mesh_poses(assembly, motions, [on, i], &[start])?;
+            let pose = mesh_poses(assembly, motions, [on, i], &[start], control)?;
             let own = pose.first().filter(|p| !p.lost).map_or(0.0, |p| p.play_behind);
             let speed = |j: usize| motions.0[j].derivative(start);
             behind[i] = behind[on] * speed(i) / speed(on) + own;
@@ -547,7 +568,7 @@ mod tests {
     fn play_adds_up_along_a_chain_of_round_gears() {
         let plan = TrainPlan::chain(pair(), 4, Layout::ZigZag(0.4), 8.0).unwrap();
         let train = plan.assemble().unwrap();
-        let play = train_play(&train.assembly, 24).unwrap();
+        let play = train_play(&train.assembly, 24, Control::unwatched()).unwrap();
         let one = play.meshes[0].play;
         assert!(one[0] > 0.0);
         for (k, mesh) in play.meshes.iter().enumerate() {
@@ -563,9 +584,9 @@ mod tests {
         let plan = TrainPlan::chain(pair(), 3, Layout::Straight, 8.0).unwrap();
         let train = plan.assemble().unwrap();
         let options = DynamicsOptions { friction: 0.0, cycles: 0.25, ..DynamicsOptions::default() };
-        let run = simulate_train(&train.assembly, &options).unwrap();
+        let run = simulate_train(&train.assembly, &options, Control::unwatched()).unwrap();
         assert_eq!(run.stopped, None);
-        let play = train_play(&train.assembly, 24).unwrap();
+        let play = train_play(&train.assembly, 24, Control::unwatched()).unwrap();
         let (faults, _) = judge_train(&train.assembly, &play, std::slice::from_ref(&run));
         assert!(faults.is_empty(), "{faults:?}");
         let mean = run.steps.iter().map(|s| s.torque).sum::<f64>() / run.steps.len() as f64;

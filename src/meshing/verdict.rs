@@ -1,6 +1,6 @@
 //! One verdict from the contact analysis and the runs.
 
-use super::contact::ContactAnalysis;
+use super::contact::{ContactAnalysis, ContactInput};
 use super::dynamics::{
     Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, Stop, simulate,
 };
@@ -368,8 +368,17 @@ pub fn prove(
     runs: &[DynamicsOptions],
     limits: &Limits,
 ) -> Result<MeshingReport, DynamicsError> {
-    let made: Result<Vec<Dynamics>, DynamicsError> =
-        runs.par_iter().map(|options| simulate(input, options)).collect();
+    let control = input.contact.control;
+    let parts = control.split(runs.len());
+    let made: Result<Vec<Dynamics>, DynamicsError> = control.run(|| {
+        runs.par_iter()
+            .zip(&parts)
+            .map(|(options, control)| {
+                let contact = ContactInput { control, ..input.contact };
+                simulate(&DynamicsInput { contact, ..*input }, options)
+            })
+            .collect()
+    });
     Ok(judge(contact, made?, input.contact.module, input.driver_teeth, limits))
 }
 

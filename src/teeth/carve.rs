@@ -12,6 +12,7 @@
 use rayon::prelude::*;
 
 use super::rolling::{Instant, Rolling};
+use crate::control::{Cancelled, Control};
 use crate::gear::Side;
 use crate::geometry::{self, Point, Vector, cross, quarter_turn};
 use crate::outline::simplify;
@@ -35,33 +36,42 @@ pub(crate) fn carve(
     rolling: &Rolling<'_>,
     tool: &[Point],
     blank: &[Point],
-    arc: f64,
-    instants: usize,
+    (arc, instants): (f64, usize),
     depth: f64,
     only_inside: bool,
-) -> Option<Carved> {
+    control: &Control,
+) -> Result<Option<Carved>, Cancelled> {
     // Some instants past the end: where the cycle closes, its pieces must overlap, not just meet.
     let frames: Vec<Instant> = (0..=instants + policy::CARVE_SURROUND)
         .into_par_iter()
         .map(|k| rolling.at(arc * k as f64 / instants as f64))
         .collect();
-    carve_at(&frames, tool, blank, depth, only_inside)
+    control.check()?;
+    let carved = carve_at(&frames, tool, blank, depth, only_inside, control);
+    control.check()?;
+    Ok(carved)
 }
 
-/// The same at given instants, in order; neighbours must be close.
+/// The same at given instants, in order; neighbours must be close. What comes of work that was cancelled has no meaning.
 pub(crate) fn carve_at(
     frames: &[Instant],
     tool: &[Point],
     blank: &[Point],
     depth: f64,
     only_inside: bool,
+    control: &Control,
 ) -> Option<Carved> {
     let tool = Tool::new(tool, depth);
     let index = RadialIndex::new(blank);
     let active: Vec<Vec<usize>> = frames
         .par_windows(2)
         .with_min_len(16)
-        .map(|pair| tool.active(&pair[0], &pair[1], &index, only_inside))
+        .map(|pair| {
+            if control.is_cancelled() {
+                return Vec::new();
+            }
+            tool.active(&pair[0], &pair[1], &index, only_inside)
+        })
         .collect();
     let found = active.iter().any(|corners| !corners.is_empty());
     let active = if only_inside { surrounded(&active, tool.points.len()) } else { active };
@@ -100,8 +110,10 @@ pub(crate) fn carve_at(
     let chunk = pieces.len().div_ceil(policy::CARVE_CHUNKS).max(1);
     let merged: Vec<Vec<Point>> = pieces
         .par_chunks(chunk)
+        .filter(|_| !control.is_cancelled())
         .flat_map_iter(|part| geometry::union(part).into_iter().flatten())
         .collect();
+    control.check().ok()?;
     let left = geometry::difference(blank, &merged);
     let outline = left
         .into_iter()

@@ -16,6 +16,7 @@ pub use record::{ToothRecord, ToothShape};
 pub use relief::{Relieved, relieved};
 pub use wave::{regular_wave_pair, wave_pair};
 
+use crate::control::{Cancelled, Control};
 use crate::gear::Side;
 use crate::geometry::Point;
 use crate::pitch::{Centrodes, Transmission};
@@ -41,6 +42,8 @@ pub struct TeethOptions {
     pub backlash: f64,
     /// Flank chords keep within this distance of the true curve, in modules.
     pub chord_tolerance: f64,
+    /// Who may stop the work.
+    pub control: Control,
 }
 
 impl Default for TeethOptions {
@@ -53,6 +56,7 @@ impl Default for TeethOptions {
             root_clearance: 0.25,
             backlash: 0.0,
             chord_tolerance: 5e-4,
+            control: Control::unwatched().clone(),
         }
     }
 }
@@ -77,6 +81,9 @@ pub struct ToothedPair {
 /// Why no teeth could be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TeethError {
+    /// The work was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The teeth do not divide over the symmetry of the driver.
     #[error(
         "{teeth} driver teeth do not divide into {folds} equal parts; give a multiple of {folds}"
@@ -121,6 +128,12 @@ pub fn involute_pair(
     centrodes: &Centrodes,
     options: &TeethOptions,
 ) -> Result<ToothedPair, TeethError> {
+    let made = options.control.run(|| involutes(centrodes, options));
+    options.control.check()?;
+    made
+}
+
+fn involutes(centrodes: &Centrodes, options: &TeethOptions) -> Result<ToothedPair, TeethError> {
     let rolling = Rolling::new(centrodes);
     let folds = centrodes.transmission.driver_fold();
     let teeth = options.teeth_per_period(folds)?;
@@ -135,6 +148,7 @@ pub fn involute_pair(
         root_clearance: options.root_clearance * module,
     };
     let layout = Layout::new(&rolling, &rack, teeth);
+    options.control.check()?;
     let tolerance = options.chord_tolerance * module;
     let gear = |side, folds| {
         gear_profile(&rolling, &layout, &rack, side, folds, options.backlash, tolerance)
@@ -142,8 +156,10 @@ pub fn involute_pair(
             .ok_or(TeethError::Tangled { gear: side })
     };
     let driver = gear(Side::Driver, folds)?;
+    options.control.check()?;
     let follower = gear(Side::Follower, centrodes.transmission.follower_fold())?;
-    let (follower, cuts) = carve_rest(&rolling, &driver, follower, module, teeth)?;
+    let (follower, cuts) =
+        carve_rest(&rolling, &driver, follower, module, teeth, &options.control)?;
     let records = record::records(&rolling, &layout, &rack);
     Ok(ToothedPair { driver, follower, module, uncovered: layout.uncovered(), cuts, records })
 }
@@ -155,19 +171,24 @@ fn carve_rest(
     follower: Profile,
     module: f64,
     teeth: usize,
+    control: &Control,
 ) -> Result<(Profile, usize), TeethError> {
     let tangled = |gear| TeethError::Tangled { gear };
     let tool = driver.inset(policy::CARVE_SKIN * module).ok_or(tangled(Side::Driver))?;
+    control.check()?;
     let periods = rolling.cycle_periods();
     let carved = carve::carve(
         rolling,
         &tool.points,
         &follower.points,
-        rolling.period() * f64::from(periods),
-        policy::CARVE_INSTANTS_PER_TOOTH * teeth * periods as usize,
+        (
+            rolling.period() * f64::from(periods),
+            policy::CARVE_INSTANTS_PER_TOOTH * teeth * periods as usize,
+        ),
         policy::CARVE_DEPTH * module,
         true,
-    )
+        control,
+    )?
     .ok_or(tangled(Side::Follower))?;
     if carved.cuts == 0 {
         return Ok((follower, 0));
@@ -198,11 +219,12 @@ pub fn carved_follower(
         &rolling,
         driver,
         blank,
-        rolling.period() * periods,
-        instants.ceil() as usize,
+        (rolling.period() * periods, instants.ceil() as usize),
         policy::CARVE_DEPTH * module,
         false,
-    )?;
+        Control::unwatched(),
+    )
+    .ok()??;
     Some(carved.outline)
 }
 

@@ -10,6 +10,7 @@
 use super::carve::carve_at;
 use super::profile::{EdgeKind, Profile};
 use super::rolling::Instant;
+use crate::control::Control;
 use crate::geometry::{self, Point, Vector, cross, quarter_turn};
 use crate::outline::simplify;
 use crate::pitch::Centrodes;
@@ -74,8 +75,14 @@ pub fn relieved(
             };
             let steps = policy::RELIEF_SUBSTEPS;
             let frames: Vec<Instant> = (from * steps..=to * steps).map(at).collect();
-            let carved =
-                carve_at(&frames, &driver.points, &outline, policy::CARVE_DEPTH * module, true)?;
+            let carved = carve_at(
+                &frames,
+                &driver.points,
+                &outline,
+                policy::CARVE_DEPTH * module,
+                true,
+                Control::unwatched(),
+            )?;
             places += usize::from(carved.cuts > 0);
             outline = carved.outline;
         }

@@ -1,6 +1,7 @@
 //! Closed forms and laws that the teeth must keep.
 
 use super::*;
+use crate::control::Control;
 use crate::geometry::{self, Point, rotate};
 use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
 use crate::pitch::Transmission;
@@ -29,6 +30,7 @@ fn contact(centrodes: &Centrodes, pair: &ToothedPair, clearance: f64) -> Contact
         motion: &|phi| t.psi(phi),
         motion_derivative: &|phi| t.derivative(phi),
         driver_cycle: t.driver_period() * f64::from(cycle_periods(t)),
+        control: Control::unwatched(),
     };
     analyse(&input, &ContactOptions { poses: 300, ..ContactOptions::default() }).unwrap()
 }

@@ -35,7 +35,17 @@ pub fn regular_wave_pair(
 fn carved_waves(
     centrodes: &Centrodes,
     options: &TeethOptions,
-    wanted: &dyn Fn(f64, f64) -> f64,
+    wanted: &(dyn Fn(f64, f64) -> f64 + Sync),
+) -> Result<ToothedPair, TeethError> {
+    let made = options.control.run(|| waves(centrodes, options, wanted));
+    options.control.check()?;
+    made
+}
+
+fn waves(
+    centrodes: &Centrodes,
+    options: &TeethOptions,
+    wanted: &(dyn Fn(f64, f64) -> f64 + Sync),
 ) -> Result<ToothedPair, TeethError> {
     let rolling = Rolling::new(centrodes);
     let folds = centrodes.transmission.driver_fold();
@@ -89,11 +99,16 @@ fn carved_waves(
         &rolling,
         &driver.points,
         &blank.points,
-        rolling.period() * f64::from(cycle_periods(&centrodes.transmission)),
-        policy::CARVE_INSTANTS_PER_TOOTH * teeth * cycle_periods(&centrodes.transmission) as usize,
+        (
+            rolling.period() * f64::from(cycle_periods(&centrodes.transmission)),
+            policy::CARVE_INSTANTS_PER_TOOTH
+                * teeth
+                * cycle_periods(&centrodes.transmission) as usize,
+        ),
         policy::CARVE_DEPTH * module,
         false,
-    )
+        &options.control,
+    )?
     .ok_or(TeethError::Tangled { gear: Side::Follower })?;
     let cuts = carved.cuts;
     let follower = label(carved.outline).without_short_edges(policy::SHORTEST_EDGE * module);

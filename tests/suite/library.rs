@@ -1,5 +1,6 @@
 //! The library: load, fit, design, without touching a folder.
 
+use centrode::control::Control;
 use centrode::design::{DesignOptions, design};
 use centrode::fit::{FitOptions, Ratio, Search, fit};
 use centrode::input::{LoadOptions, Shape, load};
@@ -35,7 +36,7 @@ fn the_global_search_is_never_worse_than_the_paper() {
         let total = |search| {
             // The refinement makes another measure small.
             let options = FitOptions { search, refine: false, ..FitOptions::default() };
-            fit(&a, &b, ratio, &options).unwrap().objective.total
+            fit(&a, &b, ratio, &options, Control::unwatched()).unwrap().objective.total
         };
         let (global, paper) = (total(Search::Global), total(Search::Paper));
         assert!(global <= paper, "{driver} {follower}: {global} against {paper}");

@@ -14,6 +14,7 @@ use argmin::solver::quasinewton::LBFGS;
 
 use super::field::Field;
 use super::law::{Basis, Sensitivity, Series};
+use crate::control::Control;
 use crate::fit::Ratio;
 use crate::geometry::{Point, Vector};
 use crate::policy;
@@ -56,11 +57,18 @@ pub(super) struct Cost<'a> {
     pub(super) fields: [&'a Field; 2],
     /// The last point asked for: the optimiser wants value and gradient one after the other.
     last: RefCell<Option<Known>>,
+    control: &'a Control,
 }
 
 impl<'a> Cost<'a> {
     pub(super) fn new(wish: &'a Wish, basis: &'a Basis, fields: [&'a Field; 2]) -> Self {
-        Self { wish, basis, fields, last: RefCell::new(None) }
+        let control = Control::unwatched();
+        Self { wish, basis, fields, last: RefCell::new(None), control }
+    }
+
+    /// The same, to be given up once `control` is cancelled.
+    pub(super) fn under(self, control: &'a Control) -> Self {
+        Self { control, ..self }
     }
 
     /// J and its gradient.
@@ -194,6 +202,7 @@ impl CostFunction for Cost<'_> {
     type Output = f64;
 
     fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
+        self.control.check()?;
         Ok(self.cached(x).0)
     }
 }
@@ -203,6 +212,7 @@ impl Gradient for Cost<'_> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, x: &Vec<f64>) -> Result<Vec<f64>, Error> {
+        self.control.check()?;
         Ok(self.cached(x).1)
     }
 }

@@ -25,6 +25,7 @@ use super::limits::{LimitCost, apply};
 use super::objective::{Candidate, Objective, Problem};
 use super::placement::{self, FittedGear, Similarity};
 use super::{Fit, FitError};
+use crate::control::StageName;
 use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::pitch::{Centrodes, Transmission};
@@ -88,7 +89,7 @@ pub(super) fn polished(problem: &Problem<'_>, found: Fit, candidates: &[Candidat
     let mut paths = starts(problem, &wish, &drawings, candidates);
     let count = paths.len();
     let folds = problem.windows();
-    for stage in &policy::POLISH_STAGES {
+    for (index, stage) in policy::POLISH_STAGES.iter().enumerate() {
         let places = (stage.places / folds).max(4 * stage.waves).max(policy::FIT_SAMPLES_LEAST);
         let basis = Basis::new(places, stage.waves);
         let fields: [Field; 2] = [0, 1].map(|i| rasters[i].field(stage.blur));
@@ -97,13 +98,16 @@ pub(super) fn polished(problem: &Problem<'_>, found: Fit, candidates: &[Candidat
             .map(|path| {
                 let mut x = path.x[..PLACES].to_vec();
                 x.extend(law::with_waves(&path.x[PLACES..], stage.waves));
-                let (x, value) =
-                    Cost::new(&wish, &basis, [&fields[0], &fields[1]]).improved(&x, stage.rounds);
+                let (x, value) = Cost::new(&wish, &basis, [&fields[0], &fields[1]])
+                    .under(problem.control)
+                    .improved(&x, stage.rounds);
                 Path { x, value, ..path }
             })
             .collect();
         paths.sort_by(|a, b| a.value.total_cmp(&b.value));
         paths = distinct(paths, stage.kept);
+        let done = 0.6 + 0.4 * (index + 1) as f64 / policy::POLISH_STAGES.len() as f64;
+        problem.control.progress(StageName::Wanted, done);
     }
     let before = measure(&wish, &found);
     let ends: Vec<(f64, bool, Fit)> = paths
@@ -154,6 +158,7 @@ fn starts(
     let mut paths: Vec<Path> = candidates
         .par_iter()
         .filter_map(|c| {
+            problem.control.check().ok()?;
             let (motion, angle) = placement::motion(&rough, c).ok()?;
             Some(placed((c.driver, c.follower), angle, motion.samples(), false))
         })
@@ -192,6 +197,7 @@ fn delivered(
     path: &Path,
     found: &Fit,
 ) -> Result<Fit, FitError> {
+    problem.control.check()?;
     let (x, coefficients) = path.x.split_at(PLACES);
     let folds = problem.folds();
     let series = law::sampled(coefficients, 0.0, wish.mean(), problem.samples);

@@ -4,6 +4,7 @@ use super::cost::{Cost, PLACES, Wish};
 use super::field::Raster;
 use super::law::Basis;
 use super::*;
+use crate::control::Control;
 use crate::fit::{FitOptions, Limits, Ratio, Search, fit};
 use crate::geometry::rotate;
 use crate::outline::Outline;
@@ -88,8 +89,8 @@ fn refined_pairs_are_better_and_keep_their_bounds() {
             ..Limits::default()
         };
         let with = |refine| FitOptions { limits, ..options(refine) };
-        let plain = fit(&driver, &follower, ratio, &with(false)).unwrap();
-        let refined = fit(&driver, &follower, ratio, &with(true)).unwrap();
+        let plain = fit(&driver, &follower, ratio, &with(false), Control::unwatched()).unwrap();
+        let refined = fit(&driver, &follower, ratio, &with(true), Control::unwatched()).unwrap();
         let done = refined.refinement.unwrap();
         assert!(done.after <= done.before && plain.refinement.is_none());
         let unlike = |f: &Fit| 2.0 - f.driver.iou - f.follower.iou;
@@ -125,7 +126,7 @@ fn refined_pairs_are_better_and_keep_their_bounds() {
 #[test]
 fn circles_stay_circles() {
     let circle = polar_shape(200, |_| 40.0);
-    let done = fit(&circle, &circle, Ratio::ONE, &options(true)).unwrap();
+    let done = fit(&circle, &circle, Ratio::ONE, &options(true), Control::unwatched()).unwrap();
     assert!(done.transmission.max_derivative() < 1.01, "{}", done.transmission.max_derivative());
     assert!(done.driver.iou > 0.99 && done.follower.iou > 0.99);
 }
@@ -133,8 +134,14 @@ fn circles_stay_circles() {
 #[test]
 fn the_balance_says_whose_likeness_counts() {
     let at = |balance| {
-        fit(&egg(), &clover(), Ratio::ONE, &FitOptions { balance, weight: 0.0, ..options(true) })
-            .unwrap()
+        fit(
+            &egg(),
+            &clover(),
+            Ratio::ONE,
+            &FitOptions { balance, weight: 0.0, ..options(true) },
+            Control::unwatched(),
+        )
+        .unwrap()
     };
     let (driver, both, follower) = (at(1.0), at(0.5), at(0.0));
     assert!(driver.driver.iou > 0.99 && follower.follower.iou > 0.99);

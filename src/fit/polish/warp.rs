@@ -79,6 +79,7 @@ pub(super) fn alignments(
         .filter_map(|(driver, follower)| {
             let best = (0..n)
                 .step_by(policy::WARP_STRIDE)
+                .take_while(|_| !problem.control.is_cancelled())
                 .filter_map(|from| {
                     let (cost, law) = path(&steps, &driver.costs, &follower.costs, n, from)?;
                     Some((cost, from, law))
