@@ -42,6 +42,7 @@ pub mod assembly;
 pub mod check;
 pub mod control;
 pub mod design;
+pub mod diagnose;
 pub mod export;
 pub mod fit;
 pub mod gallery;

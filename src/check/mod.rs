@@ -13,13 +13,14 @@ pub use axis::AxisSource;
 pub use error::CheckError;
 pub use motion::{MotionFileError, motion_from_columns};
 
-use crate::control::Control;
+use crate::control::{Control, StageName};
+use crate::diagnose::{Code, Diagnostic, Limits, Verdict};
 use crate::gear::Side;
 use crate::geometry::Point;
 use crate::input::{PairRecord, Toothed};
 use crate::meshing::{
     ContactInput, ContactOptions, ContactSummary, Direction, Dynamics, DynamicsInput,
-    DynamicsOptions, Limits, Reason, Verdict, analyse, judge, simulate,
+    DynamicsOptions, analyse, judge, judge_contact, simulate,
 };
 use crate::policy;
 use motion::Law;
@@ -100,12 +101,8 @@ pub struct CheckOptions {
 /// What was found. Lengths mm, angles radians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckReport {
-    /// The outcome.
-    pub verdict: Verdict,
-    /// Why it fails; empty unless it does.
-    pub faults: Vec<Reason>,
-    /// What deserves attention.
-    pub warnings: Vec<Reason>,
+    /// Why it fails and what deserves attention, each kind once.
+    pub diagnostics: Vec<Diagnostic>,
     /// Axes of driver and follower in the frames of their files.
     pub axes: [(Point, AxisSource); 2],
     /// Distance of the axes.
@@ -265,11 +262,8 @@ fn judged(
     };
     let analysis = analyse(&input, &options.contact)?;
     let teeth = [pair.teeth[0].count, pair.teeth[1].count];
-    let swing = swing(&analysis.summary, &options.limits);
-    let sound = judge(analysis.clone(), Vec::new(), pair.module, teeth[0], &options.limits)
-        .faults
-        .is_empty()
-        && !matches!(swing, Some((_, true)));
+    let found = judge_contact(&analysis, None, pair.module, teeth[0], &options.limits);
+    let sound = Verdict::of(&found).is_sound();
     let mut runs = Vec::new();
     if sound {
         for run in &options.runs {
@@ -288,22 +282,11 @@ fn judged(
             law.ratio()
         ));
     }
-    let mut report = judge(analysis, runs, pair.module, teeth[0], &options.limits);
-    if let Some((reason, fails)) = swing {
-        let known = report.faults.iter().chain(&report.warnings).any(|r| r.name() == reason.name());
-        if fails && !report.faults.iter().any(|r| r.name() == reason.name()) {
-            report.warnings.retain(|r| r.name() != reason.name());
-            report.faults.push(reason);
-        } else if !known {
-            report.warnings.push(reason);
-        }
-    }
+    let report = judge(analysis, runs, pair.module, teeth[0], &options.limits);
     let samples = policy::CHECK_SAMPLES;
     let at = |i: usize| law.psi(law.cycle * i as f64 / samples as f64) - law.psi(0.0);
     Ok(CheckReport {
-        verdict: verdict(&report.faults, &report.warnings),
-        faults: report.faults,
-        warnings: report.warnings,
+        diagnostics: report.diagnostics,
         axes,
         center_distance: pair.center_distance,
         teeth,
@@ -320,23 +303,6 @@ fn judged(
     })
 }
 
-fn verdict(faults: &[Reason], warnings: &[Reason]) -> Verdict {
-    match (faults.is_empty(), warnings.is_empty()) {
-        (false, _) => Verdict::DoesNotMesh,
-        (true, false) => Verdict::MeshesWithWarnings,
-        (true, true) => Verdict::Meshes,
-    }
-}
-
-/// The swing that the contact analysis shows, and whether it fails.
-fn swing(summary: &ContactSummary, limits: &Limits) -> Option<(Reason, bool)> {
-    let pitches = summary.transmission_error_pitch?.peak_to_peak;
-    let angle = summary.transmission_error?.peak_to_peak;
-    let fails = pitches > limits.swing;
-    let limit = if fails { limits.swing } else { limits.noted_swing };
-    (pitches > limits.noted_swing).then_some((Reason::Swing { angle, pitches, limit }, fails))
-}
-
 /// A pair whose contact forces no motion that could be judged further.
 fn unmoved(
     pair: &Pair,
@@ -345,16 +311,15 @@ fn unmoved(
     phase: Option<f64>,
     mut notes: Vec<String>,
 ) -> CheckReport {
+    let fault = |code| Diagnostic::fault(code, StageName::Analysed);
     let fault = match reason {
-        Untraced::NoStart => Reason::NoContact,
-        Untraced::Stopped { at } => Reason::Jam { at },
-        Untraced::NotClosed { pitches } => Reason::Slipped { pitches },
+        Untraced::NoStart => fault(Code::NoContact),
+        Untraced::Stopped { at } => fault(Code::Jam).at_driver_angle(at),
+        Untraced::NotClosed { pitches } => fault(Code::SkippedTeeth).with("pitches", pitches),
     };
     notes.push("no motion could be derived from contact; --motion or --ratio gives one".to_owned());
     CheckReport {
-        verdict: Verdict::DoesNotMesh,
-        faults: vec![fault],
-        warnings: Vec::new(),
+        diagnostics: vec![fault],
         axes,
         center_distance: pair.center_distance,
         teeth: [pair.teeth[0].count, pair.teeth[1].count],
@@ -368,6 +333,14 @@ fn unmoved(
         contact: None,
         runs: Vec::new(),
         notes,
+    }
+}
+
+impl CheckReport {
+    /// The outcome.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        Verdict::of(&self.diagnostics)
     }
 }
 

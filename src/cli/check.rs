@@ -8,9 +8,10 @@ use anyhow::Context;
 use centrode::check::{
     CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns,
 };
+use centrode::diagnose::{Diagnostic, Severity, of_severity};
 use centrode::gear::Side;
 use centrode::input::load_toothed;
-use centrode::meshing::{Direction, DynamicsOptions, Reason, Verdict};
+use centrode::meshing::{Direction, DynamicsOptions};
 use serde::Serialize;
 
 use super::Outcome;
@@ -50,7 +51,7 @@ pub(crate) fn run(args: &CheckArgs) -> anyhow::Result<Outcome> {
         .lock()
         .write_all(text.as_bytes())
         .context("cannot write to standard output")?;
-    Ok(if report.verdict == Verdict::DoesNotMesh { Outcome::NotSound } else { Outcome::Good })
+    Ok(if report.verdict().is_sound() { Outcome::Good } else { Outcome::NotSound })
 }
 
 fn motion(args: &CheckArgs) -> anyhow::Result<MotionGiven> {
@@ -73,11 +74,11 @@ fn read_motion(path: &Path) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
 }
 
 fn human(report: &CheckReport, seconds: f64) -> String {
-    let mut lines = vec![report.verdict.label().to_owned()];
-    for fault in &report.faults {
+    let mut lines = vec![report.verdict().label().to_owned()];
+    for fault in of_severity(&report.diagnostics, Severity::Fault) {
         lines.push(format!("  fault: {fault}"));
     }
-    for warning in &report.warnings {
+    for warning in of_severity(&report.diagnostics, Severity::Warning) {
         lines.push(format!("  warning: {warning}"));
     }
     lines.push(format!(
@@ -127,8 +128,8 @@ fn human(report: &CheckReport, seconds: f64) -> String {
 struct Record<'a> {
     verdict: &'static str,
     meshes: bool,
-    faults: Vec<ReasonRecord>,
-    warnings: Vec<ReasonRecord>,
+    faults: Vec<&'a Diagnostic>,
+    warnings: Vec<&'a Diagnostic>,
     teeth: [u32; 2],
     module: f64,
     center_distance: f64,
@@ -145,13 +146,6 @@ struct Record<'a> {
     contact: Option<ContactRecord>,
     runs: Vec<RunRecord>,
     notes: &'a [String],
-}
-
-#[derive(Debug, Serialize)]
-struct ReasonRecord {
-    name: &'static str,
-    driver_angle: Option<f64>,
-    sentence: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -181,21 +175,13 @@ struct RunRecord {
 }
 
 fn json(report: &CheckReport) -> anyhow::Result<String> {
-    let reasons = |list: &[Reason]| {
-        list.iter()
-            .map(|r| ReasonRecord {
-                name: r.name(),
-                driver_angle: r.driver_angle(),
-                sentence: r.to_string(),
-            })
-            .collect()
-    };
+    let found = |severity| of_severity(&report.diagnostics, severity).collect();
     let intervals = report.psi.len().saturating_sub(1).max(1) as f64;
     let record = Record {
-        verdict: report.verdict.label(),
-        meshes: report.verdict != Verdict::DoesNotMesh,
-        faults: reasons(&report.faults),
-        warnings: reasons(&report.warnings),
+        verdict: report.verdict().label(),
+        meshes: report.verdict().is_sound(),
+        faults: found(Severity::Fault),
+        warnings: found(Severity::Warning),
         teeth: report.teeth,
         module: report.module,
         center_distance: report.center_distance,

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use centrode::design::{BoreChoice, Design, run_record};
+use centrode::diagnose::Verdict;
 use centrode::meshing::ContactPose;
-use centrode::report::{Note, NoteKind, Plot, ReportData, Section, Verdict};
+use centrode::report::{Note, NoteKind, Plot, ReportData, Section};
 use centrode::teeth::cycle_periods;
 use serde_json::json;
 

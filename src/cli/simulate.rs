@@ -5,11 +5,12 @@ use std::io::Write;
 
 use anyhow::Context;
 use centrode::design::{SavedDesign, run_record};
+use centrode::diagnose::{Limits, Severity, of_severity, sentences};
 use centrode::export::Staging;
 use centrode::meshing::{
-    ContactInput, ContactOptions, DynamicsInput, Limits, MeshingReport, Verdict, analyse, prove,
+    ContactInput, ContactOptions, DynamicsInput, MeshingReport, analyse, prove,
 };
-use centrode::report::{Note, NoteKind, ReportData, Section, Verdict as Badge, report_html};
+use centrode::report::{ReportData, Section, report_html};
 use serde_json::json;
 
 use super::args::SimulateArgs;
@@ -52,27 +53,27 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
     progress.done();
     let mut out = std::io::stdout().lock();
     if args.json {
-        let sentences = |reasons: &[centrode::meshing::Reason]| -> Vec<String> {
-            reasons.iter().map(ToString::to_string).collect()
-        };
         let value = json!({
-            "verdict": report.verdict.label(),
-            "meshes": report.verdict != Verdict::DoesNotMesh,
-            "faults": sentences(&report.faults),
-            "warnings": sentences(&report.warnings),
+            "verdict": report.verdict().label(),
+            "meshes": report.verdict().is_sound(),
+            "faults": sentences(&report.diagnostics, Severity::Fault),
+            "warnings": sentences(&report.diagnostics, Severity::Warning),
+            "diagnostics": report.diagnostics,
             "runs": report.runs.iter().map(run_record).collect::<Vec<_>>(),
             "files": files,
         });
         writeln!(out, "{value}").context("cannot write to standard output")?;
     } else {
-        let mut lines = vec![report.verdict.label().to_owned()];
-        lines.extend(report.faults.iter().map(|r| format!("  fault: {r}")));
-        lines.extend(report.warnings.iter().map(|r| format!("  warning: {r}")));
+        let mut lines = vec![report.verdict().label().to_owned()];
+        for (severity, word) in [(Severity::Fault, "fault"), (Severity::Warning, "warning")] {
+            let told = of_severity(&report.diagnostics, severity);
+            lines.extend(told.map(|d| format!("  {word}: {d}")));
+        }
         lines.extend(proof::lines(&report));
         lines.extend(files.iter().map(|f| f.display().to_string()));
         writeln!(out, "{}", lines.join("\n")).context("cannot write to standard output")?;
     }
-    Ok(if report.verdict == Verdict::DoesNotMesh { Outcome::NotSound } else { Outcome::Good })
+    Ok(if report.verdict().is_sound() { Outcome::Good } else { Outcome::NotSound })
 }
 
 fn page(saved: &SavedDesign, report: &MeshingReport) -> ReportData {
@@ -82,18 +83,14 @@ fn page(saved: &SavedDesign, report: &MeshingReport) -> ReportData {
         .row("Module", format!("{:.3} mm", saved.module))
         .row("Centre distance", format!("{:.3} mm", saved.center_distance))
         .row("Thickness", format!("{:.2} mm", saved.thickness));
-    let reasons = if report.faults.is_empty() { &report.warnings } else { &report.faults };
-    let said: Vec<String> = reasons.iter().map(ToString::to_string).collect();
-    let note = |kind: NoteKind| move |r: &centrode::meshing::Reason| Note::new(kind, r.to_string());
+    let verdict = report.verdict();
+    let gravest = if verdict.is_sound() { Severity::Warning } else { Severity::Fault };
+    let said = sentences(&report.diagnostics, gravest);
     ReportData {
         title: format!("{} and {}, simulated", saved.names[0], saved.names[1]),
         command: String::new(),
         made_by: concat!("centrode ", env!("CARGO_PKG_VERSION")).to_owned(),
-        verdict: match report.verdict {
-            Verdict::Meshes => Badge::Good,
-            Verdict::MeshesWithWarnings => Badge::Warnings,
-            Verdict::DoesNotMesh => Badge::Unsound,
-        },
+        verdict,
         summary: if said.is_empty() {
             "The pair meshes: contact is kept and the torque arrives.".to_owned()
         } else {
@@ -102,11 +99,6 @@ fn page(saved: &SavedDesign, report: &MeshingReport) -> ReportData {
         sections: std::iter::once(gears).chain(proof::sections(report)).collect(),
         plots: proof::plots(report),
         contacts: proof::contacts(report, saved.driver_angle.last().copied().unwrap_or_default()),
-        notes: report
-            .faults
-            .iter()
-            .map(note(NoteKind::Fault))
-            .chain(report.warnings.iter().map(note(NoteKind::Warning)))
-            .collect(),
+        notes: report.diagnostics.iter().map(Into::into).collect(),
     }
 }

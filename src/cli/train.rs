@@ -7,12 +7,13 @@ use anyhow::{Context, bail};
 use centrode::assembly::{Assembly, Layout, PairModel, Train, TrainError, TrainPlan};
 use centrode::control::Control;
 use centrode::design::{SavedDesign, read_train};
+use centrode::diagnose::Verdict;
 use centrode::export::{ExportError, Parts, Staging, check_folder, write_json};
 use centrode::meshing::{
     Drive, DynamicsOptions, TrainPlay, TrainRun, judge_train, simulate_train, train_play,
 };
 use centrode::policy;
-use centrode::report::{Note, NoteKind, Plot, ReportData, Section, Verdict, report_html};
+use centrode::report::{Note, NoteKind, Plot, ReportData, Section, report_html};
 use centrode::solid::assembly_solids;
 use clap::{Args, ValueEnum};
 use serde_json::json;

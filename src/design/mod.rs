@@ -19,12 +19,14 @@ pub use source::Drawn;
 pub use train_file::{TrainFileError, read_train, train_from_toml};
 
 use crate::assembly::{Assembly, Gear, PlacedGear};
+use crate::control::StageName;
+use crate::diagnose::{Code, Diagnostic, Limits, Severity};
 use crate::fit::{self, Fit, FittedGear, Objective, Ratio};
 use crate::geometry::{self, Point};
 use crate::input::Shape;
 use crate::meshing::{
-    ContactAnalysis, ContactInput, DynamicsError, DynamicsInput, DynamicsOptions, Limits,
-    MeshingReport, Reason, prove,
+    ContactAnalysis, ContactInput, DynamicsError, DynamicsInput, DynamicsOptions, MeshingReport,
+    judge_contact, prove,
 };
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
@@ -99,11 +101,14 @@ impl Design {
         });
         let Some(proof) = proof.transpose()? else { return Ok(()) };
         // The contact analysis has been judged already, by stricter limits.
-        let new = |r: &&Reason| {
-            !matches!(r, Reason::ContactLost { .. } | Reason::Overlap { .. } | Reason::NoContact)
-        };
-        self.faults.extend(proof.faults.iter().filter(new).map(ToString::to_string));
-        self.warnings.extend(proof.warnings.iter().filter(new).map(ToString::to_string));
+        let proven = |d: &&Diagnostic| d.stage == StageName::Proven;
+        for found in proof.diagnostics.iter().filter(proven) {
+            match found.severity {
+                Severity::Fault => self.faults.push(found.to_string()),
+                Severity::Warning => self.warnings.push(found.to_string()),
+                Severity::Note => self.steps.push(found.to_string()),
+            }
+        }
         self.proof = Some(proof);
         Ok(())
     }
@@ -165,18 +170,13 @@ impl Design {
 
     /// Holds the finished gears, with their clearance and relief, to the limits that a run holds them to.
     fn judge_swing(&mut self) {
-        let summary = &self.contact.summary;
-        let (Some(angle), Some(share)) =
-            (&summary.transmission_error, &summary.transmission_error_pitch)
-        else {
-            return;
-        };
-        let (angle, pitches) = (angle.peak_to_peak, share.peak_to_peak);
-        let swing = |limit| Reason::Swing { angle, pitches, limit }.to_string();
-        if pitches > policy::WORST_SWING {
-            self.faults.push(swing(policy::WORST_SWING));
-        } else if pitches > policy::NOTED_SWING {
-            self.warnings.push(swing(policy::NOTED_SWING));
+        let limits = Limits::default();
+        for found in judge_contact(&self.contact, None, self.pair.module, self.teeth[0], &limits) {
+            match (found.code, found.severity) {
+                (Code::TransmissionError, Severity::Fault) => self.faults.push(found.to_string()),
+                (Code::TransmissionError, _) => self.warnings.push(found.to_string()),
+                _ => {}
+            }
         }
     }
 

@@ -36,4 +36,4 @@ pub use train::{
     MeshFigures, MeshPlay, TrainPlay, TrainRun, TrainRunError, TrainStep, judge_train,
     simulate_train, train_play,
 };
-pub use verdict::{Limits, MeshingReport, Reason, Verdict, judge, prove, proving_runs};
+pub use verdict::{MeshingReport, judge, judge_contact, judge_run, prove, proving_runs};

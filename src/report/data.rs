@@ -2,29 +2,7 @@
 
 use serde::Serialize;
 
-/// How the run ended, as the badge at the top of the page says it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// The gears are sound and nothing needs attention.
-    Good,
-    /// The gears are sound; the warnings say what was given up.
-    Warnings,
-    /// The gears were made but must not be trusted.
-    Unsound,
-}
-
-impl Verdict {
-    /// The words on the badge.
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Good => "Good",
-            Self::Warnings => "Made with warnings",
-            Self::Unsound => "Not sound",
-        }
-    }
-}
+use crate::diagnose::{Code, Diagnostic, Place, Severity, Verdict};
 
 /// Everything the page shows besides the gears themselves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -135,13 +113,29 @@ pub struct Note {
     pub kind: NoteKind,
     /// The sentence.
     pub text: String,
+    /// The kind of finding that it tells of, if it tells of one.
+    pub code: Option<Code>,
+    /// Where that is.
+    pub place: Option<Place>,
 }
 
 impl Note {
     /// A note of the given kind.
     #[must_use]
     pub fn new(kind: NoteKind, text: impl Into<String>) -> Self {
-        Self { kind, text: text.into() }
+        Self { kind, text: text.into(), code: None, place: None }
+    }
+}
+
+impl From<&Diagnostic> for Note {
+    fn from(found: &Diagnostic) -> Self {
+        let kind = match found.severity {
+            Severity::Note => NoteKind::Step,
+            Severity::Warning => NoteKind::Warning,
+            Severity::Fault => NoteKind::Fault,
+        };
+        let (code, place) = (Some(found.code), found.place);
+        Self { kind, text: found.to_string(), code, place }
     }
 }
 

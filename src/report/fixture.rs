@@ -1,8 +1,9 @@
 //! A pair whose motion is known in closed form, for the tests of this room:
 //! two equal ellipses turning about a focus each, with waves for teeth.
 
-use super::{Note, NoteKind, Plot, ReportData, Section, Verdict};
+use super::{Note, NoteKind, Plot, ReportData, Section};
 use crate::assembly::{Assembly, Fittings, Gear, PlacedGear};
+use crate::diagnose::Verdict;
 use crate::geometry::{Point, quarter_turn};
 use std::f64::consts::{PI, TAU};
 

@@ -15,7 +15,7 @@ mod thin;
 
 pub use contacts::contact_frames;
 pub use data::{
-    ContactFrame, Limit, Note, NoteKind, Plot, ReportData, Row, Section, Series, Touch, Verdict,
+    ContactFrame, Limit, Note, NoteKind, Plot, ReportData, Row, Section, Series, Touch,
 };
 pub use page::report_html;
 pub use picture::{PictureOptions, pair_svg};

@@ -1,11 +1,12 @@
 //! One self-contained page on which the gears turn.
 
 use super::contacts;
-use super::data::{NoteKind, ReportData, Row, Section, Verdict};
+use super::data::{NoteKind, ReportData, Row, Section};
 use super::plot::Scaled;
 use super::text::{Grid, escape, json_for_script, plain};
 use super::thin::thin_ring;
 use crate::assembly::{Assembly, Gear, PlacedGear};
+use crate::diagnose::{Code, Verdict};
 use crate::geometry::{self, Point};
 use crate::policy::{
     CLOSE_UP_PITCHES, PAGE_DIGITS, PAGE_FORCE_LENGTH, PAGE_MOTION_NUMBERS, PAGE_POINTS,
@@ -72,17 +73,17 @@ pub fn report_html(assembly: &Assembly, data: &ReportData) -> String {
 }
 
 fn header(data: &ReportData, out: &mut String) {
-    let (class, sign) = match data.verdict {
-        Verdict::Good => ("good", "✓"),
-        Verdict::Warnings => ("warn", "!"),
-        Verdict::Unsound => ("bad", "×"),
+    let (class, sign, badge) = match data.verdict {
+        Verdict::Good => ("good", "✓", "Good"),
+        Verdict::Warnings => ("warn", "!", "Made with warnings"),
+        Verdict::Unsound => ("bad", "×", "Not sound"),
     };
     let _ = write!(
         out,
         "<header>\n<h1>{}</h1>\n<p class=\"verdict {class}\"><b><i aria-hidden=\"true\">{sign}</i>{}</b> \
          <span>{}</span></p>\n</header>\n",
         escape(&data.title),
-        data.verdict.label(),
+        badge,
         escape(&data.summary)
     );
 }
@@ -109,7 +110,9 @@ fn notes(data: &ReportData, out: &mut String) {
                 NoteKind::Warning => "warn",
                 NoteKind::Fault => "bad",
             };
-            let _ = writeln!(out, "<li class=\"{kind}\">{}</li>", escape(&note.text));
+            let code = note.code.map_or("", Code::word);
+            let text = escape(&note.text);
+            let _ = writeln!(out, "<li class=\"{kind}\" data-code=\"{code}\">{text}</li>");
         }
         out.push_str("</ul>\n</section>\n");
     };
