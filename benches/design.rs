@@ -10,9 +10,10 @@ use centrode::check::{CheckOptions, check, default_runs};
 use centrode::design::{DesignOptions, ToothCount, design};
 use centrode::export::{Export, Glb, Obj, Parts, Stl, write_json};
 use centrode::fit::{self, FitOptions, Ratio, Search};
-use centrode::geometry::Point;
 use centrode::input::{LoadOptions, Shape, Toothed, load};
-use centrode::meshing::{ContactInput, ContactOptions, DynamicsOptions, analyse};
+use centrode::meshing::{
+    ContactInput, ContactOptions, DynamicsInput, DynamicsOptions, analyse, simulate,
+};
 use centrode::outline::{Outline, Smoothing, smooth};
 use centrode::pitch::{Centrodes, PolarCurve, Transmission};
 use centrode::report::{PictureOptions, pair_svg};
@@ -78,33 +79,52 @@ fn wavy() -> Centrodes {
     Centrodes { transmission, center_distance: 80.0 }
 }
 
+fn teeth_options(driver_teeth: u32) -> TeethOptions {
+    TeethOptions { driver_teeth, ..TeethOptions::default() }
+}
+
+/// Calls `used` with a pair of so many teeth.
+fn with_pair(centrodes: &Centrodes, teeth: u32, used: impl FnOnce(ContactInput<'_>)) {
+    let pair = involute_pair(centrodes, &teeth_options(teeth)).expect("teeth on a smooth law");
+    let transmission = &centrodes.transmission;
+    used(ContactInput {
+        driver: &pair.driver.points,
+        follower: &pair.follower.points,
+        center_distance: centrodes.center_distance,
+        module: pair.module,
+        motion: &|phi| transmission.psi(phi),
+        motion_derivative: &|phi| transmission.derivative(phi),
+        driver_cycle: transmission.driver_period(),
+        control: Control::unwatched(),
+    });
+}
+
 fn gears(c: &mut Criterion) {
     let centrodes = wavy();
-    let options = |driver_teeth| TeethOptions { driver_teeth, ..TeethOptions::default() };
     let mut group = c.benchmark_group("teeth and carving");
     for teeth in TEETH {
         group.bench_function(BenchmarkId::from_parameter(teeth), |b| {
-            b.iter(|| involute_pair(black_box(&centrodes), &options(teeth)));
+            b.iter(|| involute_pair(black_box(&centrodes), &teeth_options(teeth)));
         });
     }
     group.finish();
     let mut group = c.benchmark_group("contact analysis");
     for teeth in TEETH {
-        let pair = involute_pair(&centrodes, &options(teeth)).expect("teeth on a smooth law");
-        let transmission = &centrodes.transmission;
-        let points: [&[Point]; 2] = [&pair.driver.points, &pair.follower.points];
-        let input = ContactInput {
-            driver: points[0],
-            follower: points[1],
-            center_distance: centrodes.center_distance,
-            module: pair.module,
-            motion: &|phi| transmission.psi(phi),
-            motion_derivative: &|phi| transmission.derivative(phi),
-            driver_cycle: transmission.driver_period(),
-            control: Control::unwatched(),
-        };
-        group.bench_function(BenchmarkId::from_parameter(teeth), |b| {
-            b.iter(|| analyse(black_box(&input), &ContactOptions::default()));
+        with_pair(&centrodes, teeth, |input| {
+            group.bench_function(BenchmarkId::from_parameter(teeth), |b| {
+                b.iter(|| analyse(black_box(&input), &ContactOptions::default()));
+            });
+        });
+    }
+    group.finish();
+    let mut group = c.benchmark_group("one cycle as rigid bodies");
+    for teeth in TEETH {
+        with_pair(&centrodes, teeth, |contact| {
+            let input = DynamicsInput { contact, driver_teeth: teeth };
+            let options = DynamicsOptions { cycles: 1.0, ..DynamicsOptions::default() };
+            group.bench_function(BenchmarkId::from_parameter(teeth), |b| {
+                b.iter(|| simulate(black_box(&input), &options));
+            });
         });
     }
     group.finish();

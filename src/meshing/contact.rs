@@ -260,6 +260,39 @@ fn poses_counted(
     })
 }
 
+/// How far the follower turns behind, from each of the given poses, until it touches, radians; `None` where it does
+/// not touch within half a pitch. A pose is a driver angle and a follower angle in the sense of psi.
+///
+/// The poses are taken to be nearly in contact, `close` radians from it or less: what is within reach of so much is
+/// looked at first, and the rest only where that finds no contact or an overlap. The result does not depend on `close`.
+///
+/// # Errors
+/// See [`ContactError`].
+pub(super) fn turns_behind(
+    input: &ContactInput<'_>,
+    poses: &[[f64; 2]],
+    close: f64,
+) -> Result<Vec<Option<f64>>, ContactError> {
+    let options = ContactOptions::default();
+    check(input, &options)?;
+    let spacing = policy::CONTACT_PROBE_SPACING * input.module;
+    input.control.run(|| {
+        let (driver, follower) =
+            rayon::join(|| Body::new(input.driver, spacing), || Body::new(input.follower, spacing));
+        let turn = |&[driver_angle, follower_angle]: &[f64; 2]| {
+            input.control.check()?;
+            let wide = designed(input, &options, driver_angle, follower_angle)?;
+            let near = Pose { max_play: close.min(wide.max_play), slack: 0.0, ..wide };
+            let play = free_play(&driver, &follower, &near);
+            if play.depth == 0.0 && play.behind.is_some() {
+                return Ok(play.behind);
+            }
+            Ok(free_play(&driver, &follower, &wide).behind)
+        };
+        poses.par_iter().map(turn).collect()
+    })
+}
+
 fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), ContactError> {
     for (gear, outline) in [(Side::Driver, input.driver), (Side::Follower, input.follower)] {
         if outline.len() < 3 {
@@ -287,22 +320,26 @@ fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), Conta
     if coarse { Ok(()) } else { Err(ContactError::TooFine { module: input.module, least }) }
 }
 
-fn pose_at(
+/// Radius of the follower's pitch curve at the pitch point, mm, and the turn of the follower by one pitch there.
+fn pitch_at(input: &ContactInput<'_>, driver_angle: f64) -> (f64, f64) {
+    let follower_radius = input.center_distance / (1.0 + (input.motion_derivative)(driver_angle));
+    (follower_radius, PI * input.module / follower_radius)
+}
+
+/// The pose in which the gears stand at these angles.
+fn designed(
     input: &ContactInput<'_>,
     options: &ContactOptions,
-    driver: &Body,
-    follower: &Body,
     driver_angle: f64,
-) -> Result<ContactPose, ContactError> {
-    let follower_angle = (input.motion)(driver_angle);
+    follower_angle: f64,
+) -> Result<Pose, ContactError> {
     let ratio = (input.motion_derivative)(driver_angle);
     if !(follower_angle.is_finite() && ratio.is_finite() && ratio > 0.0) {
         return Err(ContactError::BadMotion { driver_angle });
     }
-    let follower_radius = input.center_distance / (1.0 + ratio);
-    let pitch = PI * input.module / follower_radius;
+    let (follower_radius, pitch) = pitch_at(input, driver_angle);
     let near = options.contact_distance * input.module;
-    let pose = Pose {
+    Ok(Pose {
         driver_angle,
         follower_angle,
         center_distance: input.center_distance,
@@ -313,7 +350,18 @@ fn pose_at(
         slack: 2.0 * near / follower_radius,
         deep: policy::DEEP_INTERFERENCE * input.module,
         pitch_point: Point::new(input.center_distance - follower_radius, 0.0),
-    };
+    })
+}
+
+fn pose_at(
+    input: &ContactInput<'_>,
+    options: &ContactOptions,
+    driver: &Body,
+    follower: &Body,
+    driver_angle: f64,
+) -> Result<ContactPose, ContactError> {
+    let pose = designed(input, options, driver_angle, (input.motion)(driver_angle))?;
+    let (follower_radius, pitch) = pitch_at(input, driver_angle);
     let play = free_play(driver, follower, &pose);
     let contacts = contacts(&play, input, options);
     let behind = play.behind.unwrap_or(pose.max_play);

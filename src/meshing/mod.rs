@@ -1,6 +1,7 @@
 //! Proof that two finished gears drive each other: quasi-static contact
 //! analysis of their outlines, a run of both as rigid bodies, and a verdict.
 
+mod band;
 mod contact;
 mod csv;
 mod dynamics;
@@ -8,6 +9,7 @@ mod gap;
 mod index;
 mod partition;
 mod play;
+mod profile;
 mod recorder;
 #[cfg(test)]
 mod spur;

@@ -46,6 +46,29 @@ pub fn convex_partition(
     outline: &[Point],
     hull_tolerance: f64,
 ) -> Result<Vec<Vec<Point>>, PartitionError> {
+    let pieces = convex_pieces(outline, hull_tolerance)?;
+    Ok(pieces.iter().map(|piece| piece.points(outline)).collect())
+}
+
+/// A convex piece of an outline by the numbers of its corners, counter-clockwise.
+pub(super) struct Piece {
+    pub(super) corners: Vec<usize>,
+    /// Whether the edge that begins at each corner lies on the outline, or spans a shallow dent of it; else it runs
+    /// through the material.
+    pub(super) on_outline: Vec<bool>,
+}
+
+impl Piece {
+    pub(super) fn points(&self, outline: &[Point]) -> Vec<Point> {
+        self.corners.iter().map(|&i| outline[i]).collect()
+    }
+}
+
+/// The pieces of [`convex_partition`], by number.
+pub(super) fn convex_pieces(
+    outline: &[Point],
+    hull_tolerance: f64,
+) -> Result<Vec<Piece>, PartitionError> {
     let faces = triangles(outline)?;
     let mut pieces = Pieces::new(outline, faces);
     pieces.merge(hull_tolerance);
@@ -229,14 +252,32 @@ impl<'a> Pieces<'a> {
         })
     }
 
-    fn hulls(&self) -> Vec<Vec<Point>> {
+    fn hulls(&self) -> Vec<Piece> {
         self.loops
             .iter()
             .filter(|ring| !ring.is_empty())
-            .map(|ring| hull(self.outline, ring).iter().map(|&k| self.outline[ring[k]]).collect())
+            .map(|ring| self.piece(ring))
             // Three points in a line make a triangle without area; there is nothing to cover.
-            .filter(|piece: &Vec<Point>| piece.len() >= 3 && signed_area(piece) > 0.0)
+            .filter(|piece| {
+                piece.corners.len() >= 3 && signed_area(&piece.points(self.outline)) > 0.0
+            })
             .collect()
+    }
+
+    fn piece(&self, ring: &[usize]) -> Piece {
+        let hull = hull(self.outline, ring);
+        let follows = |at: usize| {
+            let next = ring[(at + 1) % ring.len()];
+            next == (ring[at] + 1) % self.outline.len()
+        };
+        let on_outline = (0..hull.len())
+            .map(|k| {
+                let (from, to) = (hull[k], hull[(k + 1) % hull.len()]);
+                let steps = (to + ring.len() - from) % ring.len();
+                (0..steps).any(|step| follows((from + step) % ring.len()))
+            })
+            .collect();
+        Piece { corners: hull.iter().map(|&k| ring[k]).collect(), on_outline }
     }
 }
 

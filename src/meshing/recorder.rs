@@ -1,7 +1,7 @@
 //! What a run leaves: its steps, their averages and their distance from the exact contact, and the
 //! figures to judge by.
 
-use super::contact::{ContactInput, ContactOptions, ContactPose, poses_at};
+use super::contact::{ContactInput, turns_behind};
 use super::dynamics::{
     Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, DynamicsSummary, Step, Stop,
 };
@@ -11,6 +11,10 @@ use super::world::World;
 use crate::geometry::Point;
 use crate::policy;
 use std::f64::consts::{PI, TAU};
+
+/// Turn of the follower within which its exact contact is looked for first, radians (0.2 degrees): a follower further
+/// from it fails.
+const NEAR_CONTACT: f64 = policy::WORST_TRACKING;
 
 /// Collects steps and turns them into a [`Dynamics`].
 pub(super) struct Recorder {
@@ -121,22 +125,18 @@ fn contact_angles(
     steps: &mut [Step],
 ) -> Result<(), DynamicsError> {
     let stride = (options.steps_per_tooth / policy::CONTACT_ANGLES_PER_TOOTH).max(1) as usize;
-    let places: Vec<[f64; 2]> =
-        steps.iter().step_by(stride).map(|s| [s.driver_angle, s.follower_angle]).collect();
     // Looked for from a little ahead of the follower, so that it is free there.
-    let led = |angle: f64| {
-        let i = places.partition_point(|p| p[0] < angle).min(places.len() - 1);
-        places[i][1] + policy::CONTACT_LEAD
-    };
-    let pair = ContactInput { motion: &led, ..input.contact };
-    let angles: Vec<f64> = places.iter().map(|p| p[0]).collect();
-    let found = poses_at(&pair, &ContactOptions::default(), &angles)?;
-    let distance =
-        |pose: &ContactPose| (!pose.lost).then_some(pose.play_behind - policy::CONTACT_LEAD);
+    let places: Vec<[f64; 2]> = steps
+        .iter()
+        .step_by(stride)
+        .map(|s| [s.driver_angle, s.follower_angle + policy::CONTACT_LEAD])
+        .collect();
+    let found = turns_behind(&input.contact, &places, NEAR_CONTACT)?;
     for (i, step) in steps.iter_mut().enumerate() {
         let (k, rest) = (i / stride, (i % stride) as f64 / stride as f64);
-        let (a, b) = (distance(&found[k]), distance(&found[(k + 1).min(found.len() - 1)]));
-        step.contact_angle = a.zip(b).map(|(a, b)| step.follower_angle - a - (b - a) * rest);
+        let (a, b) = (found[k], found[(k + 1).min(found.len() - 1)]);
+        step.contact_angle =
+            a.zip(b).map(|(a, b)| step.follower_angle + policy::CONTACT_LEAD - a - (b - a) * rest);
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ use crate::policy;
 use std::collections::HashMap;
 
 /// The edges of a counter-clockwise outline, ready to be asked for their normals.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Surface {
     points: Vec<Point>,
     /// Outward unit normal of the edge that begins at each point.

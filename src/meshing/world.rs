@@ -1,10 +1,10 @@
-//! Gears as rigid bodies in rapier2d; the only file that names it.
+//! Gears as rigid bodies in rapier2d; only this file and `profile.rs` name it.
 //!
 //! Units of this world: lengths such that the module is [`policy::WORLD_MODULE`], time such that
 //! the driver turns by one radian, torque such that the load is the square of the centre distance.
 
-use super::partition::{PartitionError, convex_partition};
-use super::surface::Surface;
+use super::partition::PartitionError;
+use super::profile::{Profile, Touching};
 use crate::geometry::{self, Point};
 use crate::policy;
 use parry2d_f64::shape::SharedShape;
@@ -16,10 +16,8 @@ use rapier2d_f64::dynamics::{
 use rapier2d_f64::geometry::{
     BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SolverFlags,
 };
-use rapier2d_f64::math::{Pose, Vector};
-use rapier2d_f64::pipeline::{
-    ActiveHooks, ContactModificationContext, PairFilterContext, PhysicsHooks, PhysicsPipeline,
-};
+use rapier2d_f64::math::Vector;
+use rapier2d_f64::pipeline::{ActiveHooks, PairFilterContext, PhysicsHooks, PhysicsPipeline};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -87,7 +85,7 @@ pub(super) struct World {
     meshes: Vec<[usize; 2]>,
     /// Torque on each gear, in the world's units.
     torques: Vec<f64>,
-    surfaces: Surfaces,
+    hooks: Meshes,
     /// Rotations without wrapping.
     angles: Vec<f64>,
     /// World lengths per mm.
@@ -105,11 +103,15 @@ impl World {
         let mut bodies = RigidBodySet::new();
         let mut colliders = ColliderSet::new();
         let mut joints = ImpulseJointSet::new();
-        let compounds = input
+        let profiles = input
             .gears
             .par_iter()
             .enumerate()
-            .map(|(i, gear)| compound(gear.outline, scale).map_err(|e| (i, e)))
+            .map(|(i, gear)| {
+                let scaled: Vec<Point> = gear.outline.iter().map(|p| p * scale).collect();
+                let tolerance = policy::HULL_TOLERANCE * policy::WORLD_MODULE;
+                Profile::new(&scaled, policy::WORLD_MODULE, tolerance).map_err(|e| (i, e))
+            })
             .collect::<Result<Vec<_>, _>>()?;
         let mut gears: Vec<RigidBodyHandle> = Vec::new();
         for (i, gear) in input.gears.iter().enumerate() {
@@ -133,17 +135,17 @@ impl World {
         }
         // Where every gear may touch every other nothing needs to be asked.
         let hooks = if input.gears.len() > 2 {
-            ActiveHooks::MODIFY_SOLVER_CONTACTS | ActiveHooks::FILTER_CONTACT_PAIRS
+            ActiveHooks::FILTER_CONTACT_PAIRS
         } else {
-            ActiveHooks::MODIFY_SOLVER_CONTACTS
+            ActiveHooks::empty()
         };
-        let shapes: Vec<ColliderHandle> = compounds
+        let shapes: Vec<ColliderHandle> = profiles
             .into_iter()
             .zip(&input.gears)
             .zip(&gears)
-            .map(|((shape, gear), &body)| {
+            .map(|((profile, gear), &body)| {
                 let turned = gear.fixed_to.map_or(0.0, |k| gear.angle - input.gears[k].angle);
-                let collider = ColliderBuilder::new(shape)
+                let collider = ColliderBuilder::new(SharedShape::new(profile))
                     .density(0.0)
                     .friction(input.friction)
                     .restitution(0.0)
@@ -161,18 +163,7 @@ impl World {
                 .motor_max_force(JointAxis::AngX, limit);
             joints.insert(ground, gears[0], motor, true);
         }
-        let surfaces = Surfaces {
-            numbers: shapes.iter().enumerate().map(|(i, &shape)| (shape, i)).collect(),
-            surfaces: input
-                .gears
-                .iter()
-                .map(|gear| {
-                    let scaled: Vec<Point> = gear.outline.iter().map(|p| p * scale).collect();
-                    Surface::new(&scaled, policy::WORLD_MODULE)
-                })
-                .collect(),
-            meshes: input.meshes.clone(),
-        };
+        let numbers = shapes.iter().enumerate().map(|(i, &shape)| (shape, i)).collect();
         let softness = SpringCoefficients::new(1.0 / input.step, 1.0);
         let parameters = IntegrationParameters {
             dt: input.step,
@@ -190,7 +181,7 @@ impl World {
             parameters,
             islands: IslandManager::new(),
             broad: BroadPhaseBvh::new(),
-            narrow: NarrowPhase::new(),
+            narrow: NarrowPhase::with_query_dispatcher(Touching),
             bodies,
             colliders,
             joints,
@@ -201,7 +192,7 @@ impl World {
             shapes,
             meshes: input.meshes.clone(),
             torques: input.gears.iter().map(|g| g.torque * load).collect(),
-            surfaces,
+            hooks: Meshes { numbers, meshes: input.meshes.clone() },
             angles: input.gears.iter().map(|g| g.angle).collect(),
             scale,
             load,
@@ -230,7 +221,7 @@ impl World {
             &mut self.multibodies,
             &mut self.soft,
             &mut self.ccd,
-            &self.surfaces,
+            &self.hooks,
             &(),
         );
         for (gear, angle) in self.gears.iter().zip(&mut self.angles) {
@@ -291,59 +282,17 @@ impl World {
     }
 }
 
-/// Takes away the contacts with the inner sides of convex pieces, and those of gears that do not mesh.
-struct Surfaces {
+/// Lets only gears touch that mesh.
+struct Meshes {
     numbers: HashMap<ColliderHandle, usize>,
-    /// In world lengths.
-    surfaces: Vec<Surface>,
     meshes: Vec<[usize; 2]>,
 }
 
-impl PhysicsHooks for Surfaces {
+impl PhysicsHooks for Meshes {
     fn filter_contact_pair(&self, context: &PairFilterContext<'_>) -> Option<SolverFlags> {
         let number = |handle| self.numbers.get(handle).copied();
         let (a, b) = (number(&context.collider1)?, number(&context.collider2)?);
         let meshing = self.meshes.iter().any(|m| *m == [a, b] || *m == [b, a]);
         meshing.then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
     }
-
-    fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
-        let surface = |handle| self.numbers.get(handle).map(|&i| &self.surfaces[i]);
-        let (Some(first), Some(second)) =
-            (surface(&context.collider1), surface(&context.collider2))
-        else {
-            return;
-        };
-        let poses = [context.collider1, context.collider2]
-            .map(|handle| context.colliders.get(handle).map(|c| *c.position()));
-        let [Some(one), Some(two)] = poses else { return };
-        let Some(rigid) = context.rigid_mut() else { return };
-        let normal = *rigid.normal;
-        let faces = |surface: &Surface, pose: &Pose, at: Vector, normal: Vector| {
-            let at = pose.inverse_transform_point(at);
-            let normal = pose.rotation.inverse() * normal;
-            surface.faces(Point::new(at.x, at.y), geometry::Vector::new(normal.x, normal.y))
-        };
-        rigid.solver_contacts.retain(|contact| {
-            faces(first, &one, contact.anchor1, normal)
-                && faces(second, &two, contact.anchor2, -normal)
-        });
-    }
-}
-
-fn compound(outline: &[Point], scale: f64) -> Result<SharedShape, PartitionError> {
-    let scaled: Vec<Point> = outline.iter().map(|p| p * scale).collect();
-    let pieces = convex_partition(&scaled, policy::HULL_TOLERANCE * policy::WORLD_MODULE)?;
-    let parts: Vec<(Pose, SharedShape)> = pieces
-        .into_iter()
-        .filter_map(|piece| {
-            let points = piece.iter().map(|p| Vector::new(p.x, p.y)).collect();
-            SharedShape::convex_polyline_unmodified(points)
-        })
-        .map(|shape| (Pose::IDENTITY, shape))
-        .collect();
-    if parts.is_empty() {
-        return Err(PartitionError::NoArea);
-    }
-    Ok(SharedShape::compound(parts))
 }
