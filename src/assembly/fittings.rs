@@ -1,6 +1,8 @@
 //! What parts carry besides teeth and a bore: holes, hubs, lettering, and the plate they stand on.
 
 use crate::geometry::{Face, Point};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// What a gear carries besides its teeth and its bore; nothing by default. All in the gear's frame, mm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,8 +62,8 @@ pub struct Mark {
     pub height: f64,
 }
 
-/// A part that stands still while the gears turn: a plate with holes and posts. In its own frame:
-/// x and y as in the world, z = 0 at its bottom; mm.
+/// A part beside the gears, such as the plate they stand on or a cap: a plate with holes, posts and pockets. In its own
+/// frame it lies as it is printed, flat on z = 0; mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
     /// Name of the part in every file, such as `base`.
@@ -74,8 +76,74 @@ pub struct Fixture {
     pub thickness: f64,
     /// What rises from the plate, each step of a stack on its own.
     pub posts: Vec<Post>,
-    /// World height of its bottom; the gears' bottoms are at 0.
-    pub z: f64,
+    /// Blind holes, each apart from everything but the hole it widens.
+    pub pockets: Vec<Pocket>,
+    /// Where it stands.
+    pub stance: Stance,
+}
+
+/// Where a part stands: what takes its own frame to the world's, or to the frame of the gear that it turns with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// Turn and shift, mm.
+    pub place: Isometry3<f64>,
+    /// Number of the gear that it turns with; none for a part that stands still.
+    pub with: Option<usize>,
+}
+
+impl Stance {
+    /// As it is printed, its bottom at world height `z` (the gears' bottoms are at 0).
+    #[must_use]
+    pub fn flat(z: f64) -> Self {
+        Self::at(Point::origin(), z)
+    }
+
+    /// As it is printed, its origin at a place.
+    #[must_use]
+    pub fn at(p: Point, z: f64) -> Self {
+        Self { place: Isometry3::translation(p.x, p.y, z), with: None }
+    }
+
+    /// Upside down, its printed bottom at height `z`, its origin at a place.
+    #[must_use]
+    pub fn turned_over(p: Point, z: f64) -> Self {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), PI);
+        Self { place: Isometry3::from_parts(Vector3::new(p.x, p.y, z).into(), turn), with: None }
+    }
+
+    /// On its edge: its x along the world's z, its own z along the world's -x.
+    #[must_use]
+    pub fn on_edge(at: [f64; 3]) -> Self {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -FRAC_PI_2);
+        Self { place: Isometry3::from_parts(Vector3::from(at).into(), turn), with: None }
+    }
+
+    /// The same on a gear that turns.
+    #[must_use]
+    pub fn turning_with(self, gear: usize) -> Self {
+        Self { with: Some(gear), ..self }
+    }
+
+    /// Whether it stands still as it is printed, moved up or down only; then by how much.
+    #[must_use]
+    pub fn height_of_flat(&self) -> Option<f64> {
+        let shift = self.place.translation.vector;
+        let still = self.with.is_none() && self.place.rotation == UnitQuaternion::identity();
+        (still && shift.x == 0.0 && shift.y == 0.0).then_some(shift.z)
+    }
+}
+
+/// A hole that ends in the material, open to one side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pocket {
+    /// Its edge, counter-clockwise.
+    pub ring: Vec<Point>,
+    /// Which of the plate's holes it widens, if one.
+    pub hole: Option<usize>,
+    /// Height of its lower end in the fixture's frame, mm; 0: it opens downwards.
+    pub from: f64,
+    /// Height of its upper end; where it opens upwards the top of the material.
+    pub to: f64,
 }
 
 /// A prism on a plate or on another post.

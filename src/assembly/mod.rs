@@ -11,9 +11,10 @@ pub use motion::{MotionError, SampledMotion};
 pub use train::{Layout, Link, PairModel, Train, TrainError, TrainGear, TrainPlan};
 mod fittings;
 
-pub use fittings::{Fittings, Fixture, Hub, Mark, Opening, Post};
+pub use fittings::{Fittings, Fixture, Hub, Mark, Opening, Pocket, Post, Stance};
 
 use crate::geometry::Point;
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 /// A finished gear in its own frame: origin on its axis, mm, counter-clockwise outline.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +61,23 @@ impl PlacedGear {
 }
 
 impl Assembly {
+    /// What takes a gear's frame to the world's in the first pose, mm.
+    #[must_use]
+    pub fn first_pose(&self, gear: usize) -> Isometry3<f64> {
+        let Some(placed) = self.gears.get(gear) else { return Isometry3::identity() };
+        let angle = placed.angle.first().copied().unwrap_or(0.0);
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
+        let shift = Vector3::new(placed.axis.x, placed.axis.y, placed.level);
+        Isometry3::from_parts(shift.into(), turn)
+    }
+
+    /// What takes a fixture's frame to the world's in the first pose, mm.
+    #[must_use]
+    pub fn pose_of(&self, fixture: &Fixture) -> Isometry3<f64> {
+        let Stance { place, with } = fixture.stance;
+        with.map_or(place, |gear| self.first_pose(gear) * place)
+    }
+
     /// Whether the gears swing there and back instead of turning round and round: the driver then ends where it began,
     /// and [`Assembly::driver_angle`] is the way it has gone, back as well as there.
     #[must_use]
@@ -83,6 +101,6 @@ pub struct Assembly {
     pub meshes: Vec<[usize; 2]>,
     /// Gears fixed on one axle, by number.
     pub axles: Vec<[usize; 2]>,
-    /// Parts that stand still, such as a base plate.
+    /// Parts beside the gears, such as a base plate or a knob.
     pub fixtures: Vec<Fixture>,
 }

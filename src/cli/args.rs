@@ -185,9 +185,15 @@ pub(crate) struct ExportArgs {
     /// DXF in the dialect of AutoCAD R12, for old machines
     #[arg(long)]
     pub(crate) dxf_r12: bool,
+    /// Bed of the printer, width x depth: plate.3mf has all parts flat on it, and more plates where one is full
+    #[arg(long, default_value = "200x200", value_name = "WxD", value_parser = units::bed)]
+    pub(crate) bed: [f64; 2],
     /// Width that the laser burns away, up to 5 mm: in laser.svg parts grow and bores shrink by half of it
     #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = files::kerf, allow_hyphen_values = true)]
     pub(crate) kerf: f64,
+    /// Engrave the pitch curves in laser.svg
+    #[arg(long)]
+    pub(crate) laser_pitch_curves: bool,
 }
 
 /// Options of `centrode shapes`.

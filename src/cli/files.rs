@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use centrode::design::RECORD_NAME;
 use centrode::export::{
-    Animation, Dxf, Export, ExportError, Format, Glb, LaserSvg, Mjcf, Obj, Parts, Step, Stl,
+    Animation, Dxf, Export, ExportError, Format, Glb, LaserSvg, Mjcf, Obj, Parts, Plate, Step, Stl,
     ThreeMf, check_folder, write_atomically,
 };
 use centrode::policy;
@@ -30,7 +30,7 @@ impl ExportArgs {
                 Format::Glb => &["pair.glb"],
                 Format::Obj => &["pair.obj"],
                 Format::Stl => &["driver.stl", "follower.stl"],
-                Format::ThreeMf => &["pair.3mf"],
+                Format::ThreeMf => &["pair.3mf", "plate.3mf"],
                 Format::Step => &["pair.step"],
                 Format::Dxf => &["pair.dxf", "driver.dxf", "follower.dxf"],
                 Format::Svg => &["laser.svg", "pair.svg"],
@@ -111,15 +111,20 @@ pub(crate) fn write_parts(
 ) -> Result<Vec<PathBuf>, ExportError> {
     let tolerance = args.curve_tolerance;
     let dxf = Dxf { polyline: args.dxf_polyline, r12: args.dxf_r12, tolerance };
-    let formats: [(Format, &dyn Export); 9] = [
+    let plate = Plate { bed: args.bed };
+    let formats: [(Format, &dyn Export); 10] = [
         (Format::Glb, &Glb::default()),
         (Format::Stl, &Stl),
         (Format::Obj, &Obj),
         (Format::ThreeMf, &ThreeMf),
+        (Format::ThreeMf, &plate),
         (Format::Step, &Step { tolerance }),
         (Format::Dxf, &dxf),
         (Format::Mjcf, &Mjcf::default()),
-        (Format::Svg, &LaserSvg { kerf: args.kerf, tolerance }),
+        (
+            Format::Svg,
+            &LaserSvg { kerf: args.kerf, tolerance, pitch_curves: args.laser_pitch_curves },
+        ),
         (Format::Gif, &Animation::default()),
     ];
     let mut files = Vec::new();

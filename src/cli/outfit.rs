@@ -1,9 +1,11 @@
 //! Options for hubs, holes, lettering and the base plate.
 
 use centrode::design::BoreChoice;
-use centrode::design::outfit::{Base, HubChoice, Label, LabelText, Lightening, Outfit, Screws};
+use centrode::design::outfit::{
+    Base, HubChoice, Label, LabelPlace, LabelText, Lightening, Mount, Outfit, Screws,
+};
 use centrode::policy;
-use centrode::solid::{Bore, Fit};
+use centrode::solid::{Bore, BoreName, Fit};
 use clap::{Args, ValueEnum};
 
 use super::units::{self, BoreArg};
@@ -45,18 +47,39 @@ pub(crate) struct OutfitArgs {
     /// The same, sunk into the face
     #[arg(long, value_name = "TEXT", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub(crate) engrave: Option<String>,
+    /// Height of the letters' capitals [default: as large as there is room for, up to 7mm]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) letter_height: Option<f64>,
+    /// Where the letters go: near the axis, or above, below, left or right of it
+    #[arg(long, default_value = "axis", value_name = "PLACE", value_parser = units::label_place)]
+    pub(crate) letters_at: LabelPlace,
     /// Arrowheads 0.4 mm deep that meet when the gears are put together right; auto: with letters or a base
     #[arg(long, value_enum, default_value_t = MarkArg::Auto)]
     pub(crate) phase_mark: MarkArg,
     /// Bevel of the bottom edges of teeth and bore, against the elephant's foot of a first layer
     #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
     pub(crate) chamfer: f64,
-    /// Base plate: with a round pin for each gear, or with holes every 8 mm for cross axles
-    #[arg(long, value_enum, default_value_t = BaseArg::None)]
-    pub(crate) base: BaseArg,
-    /// Thickness of the base plate
-    #[arg(long, default_value = "4mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
-    pub(crate) base_thickness: f64,
+    /// Base plate, by what the gears turn on: pins; a screw such as M5 (nut:M5 with its nut or head sunk in, insert:M5 in a threaded insert); a ball bearing such as 608; lego for cross axles; or none
+    #[arg(long, default_value = "none", value_name = "BASE", value_parser = units::base)]
+    pub(crate) base: Base,
+    /// Thickness of the base plate [default: 4mm, or as much as its screws, inserts or bearings need]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) base_thickness: Option<f64>,
+    /// What the base plate is held by: four holes for screws such as M4 at its corners, or feet that are pushed into it
+    #[arg(long, value_name = "SCREW|feet", value_parser = units::mount)]
+    pub(crate) base_mount: Option<Mount>,
+    /// Stand the base plate on its edge, in two feet
+    #[arg(long)]
+    pub(crate) upright: bool,
+    /// Caps that hold the gears on the pins of the base
+    #[arg(long)]
+    pub(crate) caps: bool,
+    /// A knob on the driver to turn it by
+    #[arg(long)]
+    pub(crate) knob: bool,
+    /// Nozzle of the printer: tips, roots, walls, letters and gaps that it cannot draw are named
+    #[arg(long, default_value = "0.4mm", value_name = "LENGTH", value_parser = units::nozzle, allow_hyphen_values = true)]
+    pub(crate) nozzle: f64,
 }
 
 /// When phase marks are made.
@@ -70,23 +93,21 @@ pub(crate) enum MarkArg {
     Off,
 }
 
-/// What the gears stand on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum BaseArg {
-    /// Nothing
-    None,
-    /// A plate with pins
-    Pins,
-    /// A plate with holes of a Lego beam
-    Lego,
-}
-
 impl OutfitArgs {
-    /// The bore asked for; on a Lego plate a cross axle's unless another is.
+    /// The bore asked for; unless one is, that of what the gears turn on.
     pub(crate) fn bore(&self) -> Option<BoreChoice> {
-        let cross = BoreArg::Sized(Bore::Lego { play: policy::LEGO_AXLE_PLAY });
-        let bore = self.bore.or_else(|| (self.base == BaseArg::Lego).then_some(cross))?;
-        Some(match bore {
+        let usual = match self.base {
+            Base::None | Base::Pins => None,
+            Base::Lego => Some(BoreArg::Sized(Bore::Lego { play: policy::LEGO_AXLE_PLAY })),
+            Base::Screw { screw, .. } => Some(BoreArg::Named(BoreName::Screw(screw))),
+            Base::Bearing(bearing) => {
+                // With a fit of the user's own that is added.
+                let shaft = Bore::Round { diameter: bearing.shaft };
+                let play = if self.fit.is_some() { 0.0 } else { policy::SLIDE_FIT };
+                Some(BoreArg::Sized(shaft.with_play(play)))
+            }
+        };
+        Some(match self.bore.or(usual)? {
             BoreArg::Named(name) => BoreChoice::Named(name),
             BoreArg::Sized(bore) => BoreChoice::Exactly(bore),
         })
@@ -96,7 +117,8 @@ impl OutfitArgs {
     pub(crate) fn outfit(&self) -> Outfit {
         let hub = self.hub_diameter.or(self.hub_height).or(self.set_screw);
         let label = |text: &Option<String>, raised| {
-            text.as_deref().map(|text| Label { text: written(text), raised })
+            let (height, place) = (self.letter_height, self.letters_at);
+            text.as_deref().map(|text| Label { text: written(text), raised, height, place })
         };
         Outfit {
             fit: self.fit,
@@ -118,12 +140,13 @@ impl OutfitArgs {
                 MarkArg::Off => Some(false),
             },
             chamfer: self.chamfer,
-            base: match self.base {
-                BaseArg::None => Base::None,
-                BaseArg::Pins => Base::Pins,
-                BaseArg::Lego => Base::Lego,
-            },
+            base: self.base,
             base_thickness: self.base_thickness,
+            mount: self.base_mount.unwrap_or_default(),
+            upright: self.upright,
+            caps: self.caps,
+            knob: self.knob,
+            nozzle: self.nozzle,
         }
     }
 }

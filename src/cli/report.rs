@@ -8,6 +8,7 @@ use centrode::design::{BoreChoice, Design, run_record};
 use centrode::diagnose::Verdict;
 use centrode::meshing::ContactPose;
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section};
+use centrode::solid::{PrintFinding, print_findings};
 use centrode::teeth::cycle_periods;
 use serde_json::json;
 
@@ -43,6 +44,7 @@ pub(crate) fn summary(
             "efficiency": made.strength.efficiency,
             "contact_ratio": contact.contact_ratio,
             "bore": bore(made),
+            "printing": printing(made).iter().map(ToString::to_string).collect::<Vec<_>>(),
             "simulation": made.proof.as_ref().map(|p| p.runs.iter().map(run_record).collect::<Vec<_>>()),
             "seconds": elapsed.as_secs_f64(),
         });
@@ -126,6 +128,9 @@ pub(crate) fn summary(
     if let Some(bore) = bore(made) {
         writeln!(out, "bore {bore}")?;
     }
+    for finding in printing(made) {
+        writeln!(out, "printing: {finding}")?;
+    }
     for line in made.proof.iter().flat_map(super::proof::lines) {
         writeln!(out, "{line}")?;
     }
@@ -149,6 +154,12 @@ pub(crate) fn summary(
         writeln!(out, "open {}", page.display())?;
     }
     Ok(())
+}
+
+/// What the printer's nozzle cannot draw.
+fn printing(made: &Design) -> Vec<PrintFinding> {
+    let options = &made.options;
+    print_findings(&made.assembly, made.pair.module, options.clearance, options.outfit.nozzle)
 }
 
 /// What a bore asked for by name is like.

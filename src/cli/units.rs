@@ -1,14 +1,21 @@
 //! Lengths and angles as people type them.
 
+use centrode::design::outfit::{Base, Hold, LabelPlace, Mount};
 use centrode::fit::Ratio;
 use centrode::gallery::Shard;
 use centrode::geometry::Point;
 use centrode::policy;
-use centrode::solid::hardware::Clearance;
+use centrode::solid::hardware::{Bearing, Clearance, Screw};
 use centrode::solid::{Bore, BoreName, Fit};
 
 /// Studs of the well-known building brick, mm.
 const STUD_MM: f64 = 8.0;
+
+/// No printer has a smaller bed, mm.
+const LEAST_BED: f64 = 20.0;
+
+/// Finest and coarsest nozzle, mm.
+const NOZZLES: (f64, f64) = (0.05, 2.0);
 
 /// A length in mm from `80`, `80mm`, `8cm` or `3in`.
 pub(crate) fn length(text: &str) -> Result<f64, String> {
@@ -208,6 +215,65 @@ pub(crate) fn bore(text: &str) -> Result<BoreArg, String> {
     }))
 }
 
+/// What the gears stand on: `none`, `pins`, `lego`, a screw, or a bearing.
+pub(crate) fn base(text: &str) -> Result<Base, String> {
+    match text {
+        "none" => return Ok(Base::None),
+        "pins" => return Ok(Base::Pins),
+        "lego" => return Ok(Base::Lego),
+        _ => {}
+    }
+    if let Some(bearing) = Bearing::named(text) {
+        return Ok(Base::Bearing(bearing));
+    }
+    let (hold, name) = match text.split_once(':') {
+        Some(("nut", name)) => (Hold::Nut, name),
+        Some(("insert", name)) => (Hold::Insert, name),
+        _ => (Hold::Through, text),
+    };
+    Screw::named(name).map(|screw| Base::Screw { screw, hold }).ok_or_else(|| {
+        format!(
+            "'{text}' is no base; write none, pins, lego, a screw such as M5, nut:M5 or insert:M5, or a bearing such as 608"
+        )
+    })
+}
+
+/// A nozzle, mm.
+pub(crate) fn nozzle(text: &str) -> Result<f64, String> {
+    let (least, most) = NOZZLES;
+    match positive_length(text)? {
+        value if (least..=most).contains(&value) => Ok(value),
+        _ => Err(format!("'{text}' is no nozzle; give {least}mm to {most}mm")),
+    }
+}
+
+/// Where letters go.
+pub(crate) fn label_place(text: &str) -> Result<LabelPlace, String> {
+    let found = LabelPlace::ALL.into_iter().find(|(name, _)| *name == text);
+    found.map(|(_, place)| place).ok_or_else(|| {
+        format!("'{text}' is no place for letters; write axis, above, below, left or right")
+    })
+}
+
+/// What a base is held by: a screw, or `feet`.
+pub(crate) fn mount(text: &str) -> Result<Mount, String> {
+    if text == "feet" {
+        return Ok(Mount::Feet);
+    }
+    Screw::named(text)
+        .map(Mount::Screws)
+        .ok_or_else(|| format!("'{text}' holds no base; write a screw such as M4, or feet"))
+}
+
+/// The bed of a printer, `WIDTHxDEPTH`, mm.
+pub(crate) fn bed(text: &str) -> Result<[f64; 2], String> {
+    let sides = text.split_once(['x', 'X', '*']);
+    let side = |t: &str| positive_length(t).ok().filter(|side| *side > LEAST_BED);
+    sides.and_then(|(w, d)| Some([side(w)?, side(d)?])).ok_or_else(|| {
+        format!("'{text}' is not the size of a bed; write it like 220x220, or 250x210mm")
+    })
+}
+
 /// What `--bore` names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum BoreArg {
@@ -284,6 +350,18 @@ mod tests {
         {
             assert!(bore(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn bases_by_what_gears_turn_on() {
+        let m5 = Screw::named("M5").unwrap();
+        assert_eq!(base("nut:M5"), Ok(Base::Screw { screw: m5, hold: Hold::Nut }));
+        assert_eq!(base("m5"), Ok(Base::Screw { screw: m5, hold: Hold::Through }));
+        assert!(matches!(base("608"), Ok(Base::Bearing(_))));
+        assert_eq!(mount("feet"), Ok(Mount::Feet));
+        assert_eq!(bed("250x210mm"), Ok([250.0, 210.0]));
+        assert!(base("bolt:M5").is_err() && mount("glue").is_err());
+        assert!(bed("220").is_err() && bed("0x200").is_err() && bed("1x1").is_err());
     }
 
     #[test]

@@ -1,14 +1,18 @@
 //! Fittings and fixtures as `design.json` holds them. Records written before there were any lack them.
 
+use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::assembly::{Fittings, Fixture, Hub, Mark, Opening, Post};
+use crate::assembly::{Fittings, Fixture, Hub, Mark, Opening, Pocket, Post, Stance};
 use crate::geometry::{self, Point};
 use crate::policy;
 
 use super::saved::{plain_name, within_reach};
 
 type Ring = Vec<[f64; 2]>;
+
+/// Shortest quaternion whose direction still says a turn.
+const SHORTEST_TURN: f64 = 1e-6;
 
 /// What a gear carries.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -40,15 +44,32 @@ struct MarkRecord {
     face: Vec<Ring>,
 }
 
-/// A part that stands still.
+/// A part beside the gears.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct FixtureRecord {
     name: String,
+    /// Height of a part that lies as it is printed.
     z: f64,
+    /// Where any other part stands: x, y, z, mm, and a turn as a unit quaternion (x, y, z, w).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    place: Option<[f64; 7]>,
+    /// Number of the gear that it turns with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    turns_with: Option<usize>,
     thickness: f64,
     outline: Ring,
     holes: Vec<Ring>,
     posts: Vec<PostRecord>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pockets: Vec<PocketRecord>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct PocketRecord {
+    from: f64,
+    to: f64,
+    ring: Ring,
+    hole: Option<usize>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -150,9 +171,21 @@ impl FixtureRecord {
     pub(super) fn new(fixture: &Fixture) -> Self {
         let post =
             |p: &Post| PostRecord { from: p.from, to: p.to, ring: plain(&p.ring), hole: p.hole };
+        let Stance { place, with } = fixture.stance;
+        let flat = fixture.stance.height_of_flat();
+        let (at, turn) = (place.translation.vector, place.rotation.coords);
+        let pocket = |p: &Pocket| PocketRecord {
+            from: p.from,
+            to: p.to,
+            ring: plain(&p.ring),
+            hole: p.hole,
+        };
         Self {
             name: fixture.name.clone(),
-            z: fixture.z,
+            z: flat.unwrap_or(at.z),
+            place: flat.is_none().then(|| [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]),
+            turns_with: with,
+            pockets: fixture.pockets.iter().map(pocket).collect(),
             thickness: fixture.thickness,
             outline: plain(&fixture.outline),
             holes: fixture.holes.iter().map(|h| plain(h)).collect(),
@@ -169,10 +202,15 @@ impl FixtureRecord {
             return Err(format!("a fixture is called {:?}", self.name));
         }
         let what = format!("its {}", self.name);
-        few(&what, self.holes.len() + self.posts.len())?;
+        few(&what, self.holes.len() + self.posts.len() + self.pockets.len())?;
         let heights = self.posts.iter().flat_map(|p| [p.from, p.to]);
-        let mut sizes = heights.chain([self.z, self.thickness]);
-        if let Some(size) = sizes.find(|size| size.abs() > policy::RECORD_REACH) {
+        let depths = self.pockets.iter().flat_map(|p| [p.from, p.to]);
+        let place = self.place.unwrap_or([0.0, 0.0, self.z, 0.0, 0.0, 0.0, 1.0]);
+        let mut sizes = heights.chain(depths).chain([self.z, self.thickness]).chain(place);
+        if self.turns_with.is_some_and(|gear| gear > 1) {
+            return Err(format!("{what} turns with a gear that there is not"));
+        }
+        if let Some(size) = sizes.find(|size| size.is_nan() || size.abs() > policy::RECORD_REACH) {
             return Err(format!("{what} has a height of {size:e} mm"));
         }
         let counter_clockwise = |r: Ring| ring(&what, r, 1.0);
@@ -180,12 +218,21 @@ impl FixtureRecord {
             let PostRecord { from, to, ring, hole } = p;
             Ok(Post { ring: counter_clockwise(ring)?, hole, from, to })
         };
+        let pocket = |p: PocketRecord| {
+            let PocketRecord { from, to, ring, hole } = p;
+            Ok(Pocket { ring: counter_clockwise(ring)?, hole, from, to })
+        };
+        let [x, y, z, i, j, k, w] = place;
+        let turn = UnitQuaternion::try_new(Quaternion::new(w, i, j, k), SHORTEST_TURN)
+            .ok_or_else(|| format!("{what} has no turn"))?;
+        let place = Isometry3::from_parts(Vector3::new(x, y, z).into(), turn);
         Ok(Fixture {
+            stance: Stance { place, with: self.turns_with },
+            pockets: self.pockets.into_iter().map(pocket).collect::<Result<_, String>>()?,
             outline: counter_clockwise(self.outline)?,
             holes: self.holes.into_iter().map(counter_clockwise).collect::<Result<_, _>>()?,
             thickness: self.thickness,
             posts: self.posts.into_iter().map(post).collect::<Result<_, String>>()?,
-            z: self.z,
             name: self.name,
         })
     }
@@ -232,9 +279,14 @@ mod tests {
             holes: vec![circle(2.0, 0.1)],
             thickness: 4.0,
             posts: vec![Post { ring: circle(4.0, 0.1), hole: Some(0), from: 4.0, to: 5.0 }],
-            z: -5.0,
+            pockets: vec![Pocket { ring: circle(3.0, 0.1), hole: Some(0), from: 0.0, to: 2.0 }],
+            stance: Stance::flat(-5.0),
         };
         assert_eq!(FixtureRecord::new(&base).read().as_ref(), Ok(&base));
+        base.stance = Stance::on_edge([1.0, 2.0, 3.0]).turning_with(1);
+        let read = FixtureRecord::new(&base).read().unwrap();
+        assert!((read.stance.place.inverse() * base.stance.place).rotation.angle() < 1e-12);
+        assert_eq!(read.stance.with, Some(1));
         base.name = "../base".into();
         assert!(FixtureRecord::new(&base).read().unwrap_err().contains("../base"));
     }

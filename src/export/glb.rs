@@ -1,7 +1,7 @@
 //! Binary glTF: the gears as they turn, for viewers and Blender.
 
 use super::{Export, ExportError, Parts, keys::keys, write_atomically};
-use crate::assembly::{Assembly, PlacedGear};
+use crate::assembly::{Assembly, PlacedGear, Stance};
 use crate::geometry::perimeter;
 use crate::policy;
 use crate::solid::{Mesh, shade};
@@ -65,8 +65,19 @@ impl Glb {
             parts.iter().enumerate().map(|(i, (gear, mesh))| scene.gear(i, gear, mesh)).collect();
         scene.animate(parts.assembly, &nodes, self.seconds_per_driver_turn / TAU);
         for (fixture, mesh) in parts.fixtures() {
-            let place = [0.0, 0.0, (METRES_PER_MM * fixture.z) as f32];
-            nodes.push(scene.part(&fixture.name, mesh, GREY, place, None));
+            let Stance { place, with } = fixture.stance;
+            let at = place.translation.vector.map(|c| (METRES_PER_MM * c) as f32);
+            let turn = place.rotation.coords.map(|c| c as f32);
+            let turn = json::scene::UnitQuaternion(turn.into());
+            let node = scene.part(&fixture.name, mesh, GREY, at.into(), Some(turn));
+            // What turns with a gear hangs on its node.
+            match with.and_then(|gear| nodes.get(gear)).copied() {
+                Some(gear) => {
+                    let carried = &mut scene.root.nodes[gear.value()].children;
+                    carried.get_or_insert_default().push(node);
+                }
+                None => nodes.push(node),
+            }
         }
         // A quarter turn about x takes the gears' z up to glTF's y up.
         let pair = scene.root.push(json::Node {

@@ -1,9 +1,10 @@
 //! SVG for laser cutters: millimetres, hairlines, layers in the order of work, room for the kerf.
 
 use super::contours::{Contour, contour};
+use super::flat::{Flat, flat};
 use super::xml::escaped;
 use super::{Export, ExportError, Parts, write_atomically};
-use crate::assembly::{Assembly, Gear};
+use crate::assembly::{Assembly, Fixture, Gear};
 use crate::geometry::curves::Arc;
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
@@ -11,19 +12,22 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// `laser.svg`: the gears side by side, never overlapping, with the pitch curves and marks to engrave (blue), then the
-/// holes and last the outlines to cut (red), each in its own layer.
+/// `laser.svg`: the parts side by side, never overlapping, with the marks (and the pitch curves, if asked for) to engrave in
+/// blue, then the holes and last the outlines to cut in red, each in its own layer: a beam that follows the file cuts inside
+/// out, so that no part moves before it is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaserSvg {
     /// Width that the beam burns away, mm: outlines move outward and bores inward by half of it.
     pub kerf: f64,
     /// Greatest distance between a vertex of the outline and the arcs, mm.
     pub tolerance: f64,
+    /// Whether the pitch curves are engraved.
+    pub pitch_curves: bool,
 }
 
 impl Default for LaserSvg {
     fn default() -> Self {
-        Self { kerf: 0.0, tolerance: policy::EXPORT_TOLERANCE }
+        Self { kerf: 0.0, tolerance: policy::EXPORT_TOLERANCE, pitch_curves: false }
     }
 }
 
@@ -42,22 +46,23 @@ impl Export for LaserSvg {
     }
 }
 
-/// What the beam does to one gear, in the gear's frame.
+/// What the beam does to one part, in the part's frame.
 struct Work {
+    name: String,
     outline: Contour,
     bore: Option<Contour>,
     openings: Vec<Contour>,
-    /// What is sunk into or raised on the face, engraved as SVG.
-    marks: String,
-    pitch_curve: Contour,
+    /// What is engraved, as SVG: what is sunk into or raised on the face, and the axis of a gear without a bore.
+    engraved: String,
     low: Point,
     high: Point,
 }
 
 impl LaserSvg {
     fn sheet(&self, assembly: &Assembly) -> Result<String, String> {
-        let works: Vec<Work> =
-            assembly.gears.iter().map(|g| self.work(&g.gear)).collect::<Result<_, _>>()?;
+        let gears = assembly.gears.iter().map(|g| self.work(&g.gear));
+        let plates = assembly.fixtures.iter().filter_map(|f| Some(self.plate(f, &flat(f)?)));
+        let works: Vec<Work> = gears.chain(plates).collect::<Result<_, _>>()?;
         let gap = policy::SHEET_GAP;
         let mut shifts = Vec::new();
         let (mut right, mut height) = (gap, 0.0_f64);
@@ -86,13 +91,13 @@ impl LaserSvg {
                 "<g id=\"{name}\" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\" \
                  stroke=\"{color}\">"
             );
-            for ((work, shift), gear) in works.iter().zip(&shifts).zip(&names) {
+            for (work, shift) in works.iter().zip(&shifts) {
                 let drawn = pick(work);
                 if !drawn.is_empty() {
                     let _ = writeln!(
                         svg,
                         "<g id=\"{}-{name}\" transform=\"translate({:.4} {:.4})\">{drawn}</g>",
-                        escaped(gear),
+                        escaped(&work.name),
                         shift.x,
                         0.0 - shift.y
                     );
@@ -100,14 +105,44 @@ impl LaserSvg {
             }
             svg.push_str("</g>\n");
         };
-        layer("engrave", "#0000ff", &|w| {
-            let axis = if w.bore.is_none() { cross() } else { String::new() };
-            drawn(&w.pitch_curve) + &w.marks + &axis
-        });
+        layer("engrave", "#0000ff", &|w| w.engraved.clone());
         layer("cut-bores", "#ff0000", &|w| w.openings.iter().chain(&w.bore).map(drawn).collect());
         layer("cut-outlines", "#ff0000", &|w| drawn(&w.outline));
         svg.push_str("</svg>\n");
         Ok(svg)
+    }
+
+    /// A contour of a hole, smaller by the kerf.
+    fn hole(&self, ring: &[Point], what: &str) -> Result<Contour, String> {
+        let half = 0.5 * self.kerf;
+        let narrow = || format!("the kerf closes {what}");
+        Ok(match contour(ring, self.tolerance, true, false)? {
+            Contour::Round { radius, .. } if radius <= half => return Err(narrow()),
+            Contour::Round { center, radius } => Contour::Round { center, radius: radius - half },
+            path @ Contour::Path(_) if half == 0.0 => path,
+            Contour::Path(_) => {
+                let smaller = moved(ring, -half).ok_or_else(narrow)?;
+                contour(&smaller, self.tolerance, true, false)?
+            }
+        })
+    }
+
+    /// A plate beside the gears.
+    fn plate(&self, fixture: &Fixture, cut: &Flat<'_>) -> Result<Work, String> {
+        let what = format!("a hole of the {}", fixture.name);
+        let holes = cut.holes.iter().map(|ring| self.hole(ring, &what));
+        let outline = moved(cut.outline, 0.5 * self.kerf)
+            .ok_or_else(|| format!("half a kerf closes gaps of the {}", fixture.name))?;
+        let (low, high) = geometry::bounds(&outline);
+        Ok(Work {
+            name: fixture.name.clone(),
+            outline: contour(&outline, self.tolerance, true, false)?,
+            bore: None,
+            openings: holes.collect::<Result<_, _>>()?,
+            engraved: String::new(),
+            low,
+            high,
+        })
     }
 
     fn work(&self, gear: &Gear) -> Result<Work, String> {
@@ -121,36 +156,28 @@ impl LaserSvg {
         let half = 0.5 * self.kerf;
         let outline = moved(&gear.outline, half)
             .ok_or_else(|| format!("half a kerf closes gaps of the {}", gear.name))?;
-        let hole = |ring: &[Point], name: &str| -> Result<Contour, String> {
-            let narrow = || format!("the kerf closes the {name} of the {}", gear.name);
-            Ok(match contour(ring, self.tolerance, true, false)? {
-                Contour::Round { radius, .. } if radius <= half => return Err(narrow()),
-                Contour::Round { center, radius } => {
-                    Contour::Round { center, radius: radius - half }
-                }
-                path @ Contour::Path(_) if half == 0.0 => path,
-                Contour::Path(_) => {
-                    let smaller = moved(ring, -half).ok_or_else(narrow)?;
-                    contour(&smaller, self.tolerance, true, false)?
-                }
-            })
+        let hole = |ring: &[Point], name: &str| {
+            self.hole(ring, &format!("the {name} of the {}", gear.name))
         };
         let bore = gear.bore.as_ref().map(|ring| hole(ring, "bore")).transpose()?;
         let openings = &gear.fittings.openings;
         let openings = openings.iter().map(|o| hole(&o.ring, &o.name)).collect::<Result<_, _>>()?;
-        let marks = gear.fittings.marks.iter().flat_map(|m| &m.face).map(|r| polyline(r)).collect();
+        let marks = gear.fittings.marks.iter().flat_map(|m| &m.face);
+        let mut engraved: String = marks.map(|ring| polyline(ring)).collect();
+        if self.pitch_curves {
+            let coarse = policy::DRAWN_CURVE_TOLERANCE.max(self.tolerance);
+            engraved += &drawn(&contour(&gear.pitch_curve, coarse, false, false)?);
+        }
+        if bore.is_none() {
+            engraved += &cross();
+        }
         let (low, high) = geometry::bounds(&outline);
         Ok(Work {
+            name: gear.name.clone(),
             outline: contour(&outline, self.tolerance, false, false)?,
             bore,
             openings,
-            marks,
-            pitch_curve: contour(
-                &gear.pitch_curve,
-                policy::DRAWN_CURVE_TOLERANCE.max(self.tolerance),
-                false,
-                false,
-            )?,
+            engraved,
             low,
             high,
         })
@@ -281,6 +308,22 @@ mod tests {
         gear.fittings.openings[0].ring = crate::solid::circle(1.5, 0.005);
         let wide = LaserSvg { kerf: 4.0, ..LaserSvg::default() };
         assert!(wide.work(gear).err().is_some_and(|said| said.contains("screw 1")));
+    }
+
+    #[test]
+    fn pitch_curves_are_engraved_on_request_and_plates_are_cut() {
+        let (mut assembly, _) = wavy_pair();
+        let layer = |text: &str| {
+            let engrave = text.split("id=\"engrave\"").nth(1).unwrap();
+            engrave.split("id=\"cut-bores\"").next().unwrap().matches("<path").count()
+        };
+        let plain = LaserSvg::default();
+        assert_eq!(layer(&plain.sheet(&assembly).unwrap()), 0);
+        let with = LaserSvg { pitch_curves: true, ..plain };
+        assert_eq!(layer(&with.sheet(&assembly).unwrap()), 2);
+        assembly.fixtures.push(super::super::tests::base());
+        let text = plain.sheet(&assembly).unwrap();
+        assert!(text.contains("base-cut-outlines"));
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod animation;
 mod atomic;
 mod contours;
 mod dxf;
+mod flat;
 mod format;
 mod glb;
 mod json;
@@ -16,7 +17,9 @@ mod keys;
 mod laser_svg;
 mod mjcf;
 mod obj;
+mod plate;
 mod raster;
+mod render;
 mod staging;
 mod step;
 mod stl;
@@ -32,6 +35,7 @@ pub use json::write_json;
 pub use laser_svg::LaserSvg;
 pub use mjcf::Mjcf;
 pub use obj::Obj;
+pub use plate::Plate;
 pub use staging::Staging;
 pub use step::Step;
 pub use stl::Stl;
@@ -125,7 +129,8 @@ mod tests {
             holes: Vec::new(),
             thickness: 4.0,
             posts: Vec::new(),
-            z: -5.0,
+            pockets: Vec::new(),
+            stance: crate::assembly::Stance::flat(-5.0),
         }
     }
 
@@ -158,11 +163,12 @@ mod tests {
         let (assembly, meshes) = wavy_pair();
         let folder = tempfile::tempdir().unwrap();
         let parts = Parts { assembly: &assembly, meshes: &meshes };
-        let formats: [&dyn Export; 8] = [
+        let formats: [&dyn Export; 9] = [
             &Stl,
             &Obj,
             &Glb::default(),
             &ThreeMf,
+            &Plate::default(),
             &Step::default(),
             &Dxf::default(),
             &LaserSvg::default(),
@@ -176,6 +182,6 @@ mod tests {
             assert!(written.iter().all(|p| p.metadata().unwrap().len() > 1000));
         }
         let left = std::fs::read_dir(folder.path()).unwrap().count();
-        assert_eq!(left, 11, "no temporary file stays");
+        assert_eq!(left, 12, "no temporary file stays");
     }
 }

@@ -4,6 +4,7 @@ use super::{Export, ExportError, Parts, write_atomically};
 use crate::assembly::Assembly;
 use crate::policy;
 use crate::solid::{Mesh, shade};
+use nalgebra::{Isometry3, Point3, Vector3};
 use obj_exporter::{Geometry, ObjSet, Object, Primitive, Shape, Vertex};
 use std::path::{Path, PathBuf};
 
@@ -26,9 +27,10 @@ impl Export for Obj {
 
 fn objects(parts: Parts<'_>) -> Vec<Object> {
     let vertex = |[x, y, z]: [f64; 3]| Vertex { x, y, z };
-    let object = |name: &str, mesh: &Mesh, [dx, dy, dz]: [f64; 3]| {
+    let object = |name: &str, mesh: &Mesh, place: Isometry3<f64>| {
         let shading = shade(mesh, policy::CREASE_ANGLE);
-        let moved = |p: &[f64; 3]| vertex([p[0] + dx, p[1] + dy, p[2] + dz]);
+        let moved = |p: &[f64; 3]| vertex((place * Point3::from(*p)).into());
+        let turned = |n: &[f64; 3]| vertex((place.rotation * Vector3::from(*n)).into());
         let faces = mesh.triangles.iter().zip(&shading.corners).map(|(t, n)| {
             let [a, b, c] = [0, 1, 2].map(|k| (t[k] as usize, None, Some(n[k] as usize)));
             Shape {
@@ -41,14 +43,16 @@ fn objects(parts: Parts<'_>) -> Vec<Object> {
             name: name.to_owned(),
             vertices: mesh.positions.iter().map(moved).collect(),
             tex_vertices: Vec::new(),
-            normals: shading.normals.iter().map(|&n| vertex(n)).collect(),
+            normals: shading.normals.iter().map(turned).collect(),
             geometry: vec![Geometry { material_name: None, shapes: faces.collect() }],
         }
     };
-    let gears = parts.iter().map(|(placed, mesh)| {
-        object(&placed.gear.name, mesh, [placed.axis.x, placed.axis.y, placed.level])
-    });
-    let fixtures = parts.fixtures().map(|(f, mesh)| object(&f.name, mesh, [0.0, 0.0, f.z]));
+    let assembly = parts.assembly;
+    let gears = parts
+        .iter()
+        .enumerate()
+        .map(|(i, (placed, mesh))| object(&placed.gear.name, mesh, assembly.first_pose(i)));
+    let fixtures = parts.fixtures().map(|(f, mesh)| object(&f.name, mesh, assembly.pose_of(f)));
     gears.chain(fixtures).collect()
 }
 

@@ -1,4 +1,4 @@
-//! Pixels of the gears in one pose: for thumbnails and moving pictures.
+//! Pixels of the gears in one pose: for moving pictures.
 
 use crate::assembly::{Assembly, PlacedGear};
 use crate::geometry::{Point, bounds, rotate};
@@ -96,13 +96,6 @@ fn color([r, g, b]: [u8; 3]) -> Color {
     Color::from_rgba8(r, g, b, u8::MAX)
 }
 
-/// The gears in their first pose as a PNG, its longer side `pixels`; none when there is nothing to draw.
-pub(super) fn thumbnail(assembly: &Assembly, pixels: u32) -> Option<Vec<u8>> {
-    let start: Vec<f64> =
-        assembly.gears.iter().map(|g| g.angle.first().copied().unwrap_or(0.0)).collect();
-    View::of_all_poses(assembly, pixels)?.draw(assembly, &start)?.encode_png().ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::tests::wavy_pair;
@@ -121,7 +114,5 @@ mod tests {
         // The wavy gears overlap by some teeth, and bores stay white.
         assert!((millimetres / area - 1.0).abs() < 0.06, "{millimetres} {area}");
         assert_eq!(view.size[0], 400);
-        let png = thumbnail(&assembly, 64).unwrap();
-        assert_eq!(&png[1..4], b"PNG");
     }
 }

@@ -1,13 +1,13 @@
 //! 3MF for slicers: units, names, colours and places that STL cannot hold.
 
 use super::contours::color;
-use super::raster::thumbnail;
+use super::render::{Shown, picture};
 use super::xml::escaped;
 use super::{Export, ExportError, Parts, write_atomically};
 use crate::assembly::Assembly;
-use crate::geometry::{Point, rotate};
 use crate::policy;
 use crate::solid::Mesh;
+use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use std::fmt::Write as _;
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -33,12 +33,59 @@ impl Export for ThreeMf {
 
     fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
         let path = folder.join("pair.3mf");
-        write_atomically(&path, |out| package(parts, out))?;
+        let items = standing(parts);
+        write_atomically(&path, |out| package(parts.assembly, &items, out))?;
         Ok(vec![path])
     }
 }
 
-fn package(parts: Parts<'_>, out: impl Write + Seek) -> io::Result<()> {
+/// A part in a package.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Item<'a> {
+    pub(super) name: &'a str,
+    pub(super) color: [u8; 3],
+    pub(super) mesh: &'a Mesh,
+    /// What takes its frame to the package's, mm.
+    pub(super) place: Isometry3<f64>,
+}
+
+/// All parts with their names and colours, each in its own frame.
+pub(super) fn items(parts: Parts<'_>) -> Vec<Item<'_>> {
+    let place = Isometry3::identity();
+    let gears = parts.iter().enumerate().map(|(i, (placed, mesh))| Item {
+        name: &placed.gear.name,
+        color: color(i),
+        mesh,
+        place,
+    });
+    let fixtures = parts.fixtures().map(|(fixture, mesh)| Item {
+        name: &fixture.name,
+        color: policy::FIXTURE_COLOR,
+        mesh,
+        place,
+    });
+    gears.chain(fixtures).collect()
+}
+
+/// The parts in mesh, moved as a whole so that nothing lies at negative coordinates.
+fn standing(parts: Parts<'_>) -> Vec<Item<'_>> {
+    let assembly = parts.assembly;
+    let gears = (0..assembly.gears.len()).map(|i| assembly.first_pose(i));
+    let poses = gears.chain(assembly.fixtures.iter().map(|f| assembly.pose_of(f)));
+    let mut items: Vec<Item<'_>> =
+        items(parts).into_iter().zip(poses).map(|(item, place)| Item { place, ..item }).collect();
+    let corner = low_corner(&items);
+    let shift = Translation3::new(-corner.x, -corner.y, -corner.z);
+    items.iter_mut().for_each(|item| item.place = shift * item.place);
+    items
+}
+
+/// The package: a model with the items, and a picture of them as they lie in it.
+pub(super) fn package(
+    assembly: &Assembly,
+    items: &[Item<'_>],
+    out: impl Write + Seek,
+) -> io::Result<()> {
     let mut zip = ZipWriter::new(out);
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
@@ -48,24 +95,24 @@ fn package(parts: Parts<'_>, out: impl Write + Seek) -> io::Result<()> {
         zip.write_all(text.as_bytes())?;
     }
     zip.start_file("3D/3dmodel.model", options)?;
-    zip.write_all(model(parts).as_bytes())?;
-    let picture = thumbnail(parts.assembly, policy::THUMBNAIL_PIXELS);
+    zip.write_all(model(assembly, items).as_bytes())?;
+    let shown: Vec<Shown<'_>> =
+        items.iter().map(|i| Shown { mesh: i.mesh, place: i.place, color: i.color }).collect();
     zip.start_file("Metadata/thumbnail.png", options)?;
+    let picture = picture(&shown, policy::THUMBNAIL_PIXELS);
     zip.write_all(&picture.ok_or_else(|| io::Error::other("there is nothing to draw"))?)?;
     zip.finish()?;
     Ok(())
 }
 
-fn model(parts: Parts<'_>) -> String {
+fn model(assembly: &Assembly, items: &[Item<'_>]) -> String {
     let mut xml = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" \
          xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n",
     );
-    let gears: Vec<&str> = parts.iter().map(|(g, _)| g.gear.name.as_str()).collect();
-    let names: Vec<&str> =
-        gears.iter().copied().chain(parts.fixtures().map(|(f, _)| f.name.as_str())).collect();
+    let gears: Vec<&str> = assembly.gears.iter().map(|g| g.gear.name.as_str()).collect();
     let teeth: Vec<String> =
-        parts.iter().map(|(g, _)| format!("{}: {} teeth", g.gear.name, g.gear.teeth)).collect();
+        assembly.gears.iter().map(|g| format!("{}: {} teeth", g.gear.name, g.gear.teeth)).collect();
     let version = concat!("centrode ", env!("CARGO_PKG_VERSION"));
     for (name, value) in [
         ("Title", format!("Non-circular gears: {}", gears.join(" and "))),
@@ -75,65 +122,42 @@ fn model(parts: Parts<'_>) -> String {
         let _ = writeln!(xml, " <metadata name=\"{name}\">{}</metadata>", escaped(&value));
     }
     xml.push_str(" <resources>\n  <basematerials id=\"1\">\n");
-    for (i, name) in names.iter().enumerate() {
-        let [r, g, b] = if i < gears.len() { color(i) } else { policy::FIXTURE_COLOR };
+    for Item { name, color: [r, g, b], .. } in items {
         let name = escaped(name);
         let _ = writeln!(xml, "   <base name=\"{name}\" displaycolor=\"#{r:02X}{g:02X}{b:02X}\"/>");
     }
     xml.push_str("  </basematerials>\n");
-    let meshes = parts.iter().map(|(_, mesh)| mesh).chain(parts.fixtures().map(|(_, mesh)| mesh));
-    for (i, (name, mesh)) in names.iter().zip(meshes).enumerate() {
-        object(&mut xml, i, &escaped(name), mesh);
+    for (i, item) in items.iter().enumerate() {
+        object(&mut xml, i, &escaped(item.name), item.mesh);
     }
     xml.push_str(" </resources>\n <build>\n");
-    let corner = low_corner(parts);
-    for (i, (placed, _)) in parts.iter().enumerate() {
-        let (sin, cos) = start(placed).sin_cos();
-        let place = placed.axis - Point::new(corner[0], corner[1]);
-        let _ = writeln!(
-            xml,
-            "  <item objectid=\"{}\" transform=\"{cos} {sin} 0 {} {cos} 0 0 0 1 {:.6} {:.6} {:.6}\"/>",
-            i + 2,
-            0.0 - sin,
-            place.x,
-            place.y,
-            placed.level - corner[2]
-        );
-    }
-    for (i, (fixture, _)) in parts.fixtures().enumerate() {
-        let _ = writeln!(
-            xml,
-            "  <item objectid=\"{}\" transform=\"1 0 0 0 1 0 0 0 1 {:.6} {:.6} {:.6}\"/>",
-            gears.len() + i + 2,
-            0.0 - corner[0],
-            0.0 - corner[1],
-            fixture.z - corner[2]
-        );
+    for (i, item) in items.iter().enumerate() {
+        // The format multiplies rows from the left: the columns of our matrix, one after the other.
+        let matrix = item.place.to_homogeneous();
+        let numbers: Vec<String> = (0..4)
+            .flat_map(|column| (0..3).map(move |row| (row, column)))
+            .map(|at| number(matrix[at]))
+            .collect();
+        let _ =
+            writeln!(xml, "  <item objectid=\"{}\" transform=\"{}\"/>", i + 2, numbers.join(" "));
     }
     xml.push_str(" </build>\n</model>\n");
     xml
 }
 
-fn start(placed: &crate::assembly::PlacedGear) -> f64 {
-    placed.angle.first().copied().unwrap_or(0.0)
+/// A number without a negative zero.
+fn number(value: f64) -> String {
+    let text = format!("{value:.9}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Lower left corner of everything as it stands.
-fn low_corner(parts: Parts<'_>) -> [f64; 3] {
-    let mut low = [f64::INFINITY, f64::INFINITY, 0.0];
-    let mut reach = |x: f64, y: f64, z: f64| {
-        low = [low[0].min(x), low[1].min(y), low[2].min(z)];
-    };
-    for (placed, mesh) in parts.iter() {
-        for p in &mesh.positions {
-            let q = rotate(Point::new(p[0], p[1]), start(placed)) + placed.axis.coords;
-            reach(q.x, q.y, p[2]);
-        }
-    }
-    for (fixture, mesh) in parts.fixtures() {
-        mesh.positions.iter().for_each(|p| reach(p[0], p[1], p[2] + fixture.z));
-    }
-    low
+/// Lower left corner of everything as it lies.
+pub(super) fn low_corner(items: &[Item<'_>]) -> Vector3<f64> {
+    let points = items.iter().flat_map(|item| {
+        item.mesh.positions.iter().map(|p| (item.place * Point3::from(*p)).coords)
+    });
+    points.reduce(|low, p| low.inf(&p)).unwrap_or_else(Vector3::zeros)
 }
 
 fn object(xml: &mut String, number: usize, name: &str, mesh: &Mesh) {
@@ -166,7 +190,7 @@ pub(super) mod tests {
 
     /// The transforms of all items.
     pub(in super::super) fn places(parts: Parts<'_>) -> Vec<Vec<f64>> {
-        model(parts)
+        model(parts.assembly, &standing(parts))
             .lines()
             .filter_map(|l| l.split_once("transform=\"").map(|(_, t)| t))
             .map(|t| t.trim_end_matches("\"/>").split(' ').map(|n| n.parse().unwrap()).collect())

@@ -1,6 +1,6 @@
 //! Lettering: text as faces with an area, from the fonts that come with the program.
 
-use super::{Face, Point, bounds, union};
+use super::{Face, Point, area, bounds, union};
 use crate::policy;
 use ttf_parser::{Face as Font, OutlineBuilder};
 
@@ -55,7 +55,13 @@ pub fn lettering(text: &str, height: f64) -> Result<Lettering, LetteringError> {
         let mut pen = Pen { scale: height / capital, x, rings: Vec::new() };
         let _ = font.outline_glyph(glyph, &mut pen);
         x += pen.scale * f64::from(font.glyph_hor_advance(glyph).unwrap_or_default());
-        contours.extend(pen.rings.into_iter().filter(|ring| ring.len() > 2));
+        let mut rings: Vec<_> = pen.rings.into_iter().filter(|ring| ring.len() > 2).collect();
+        if letter == '0' {
+            // The dot or bar in it, which tells it from an O, would be an island of its own.
+            rings.sort_by(|a, b| area(b).total_cmp(&area(a)));
+            rings.truncate(2);
+        }
+        contours.extend(rings);
     }
     // Contours wind one way round ink and the other way round holes, whichever that is.
     let faces = union(&contours);

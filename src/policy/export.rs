@@ -91,8 +91,8 @@ pub const STEP_AREA_ERROR: f64 = 1e-3;
 /// Most cubic spans of one face of a STEP file: about eight faces a tooth. Readers integrate volumes over longer
 /// ones with errors of a thousandth and more.
 pub const SPANS_PER_FACE: usize = 4;
-/// Stroke of lines to cut, mm: laser programs cut what is thinner than 0.025 mm.
-pub const HAIRLINE: f64 = 0.01;
+/// Stroke of lines to cut, mm: drivers of lasers cut what is no wider than 0.001 inch, and on a screen it can be seen.
+pub const HAIRLINE: f64 = 0.0254;
 /// Room around and between parts on a laser sheet, mm.
 pub const SHEET_GAP: f64 = 5.0;
 /// Widest kerf, mm: a laser's is 0.1 to 0.3, a plasma torch's 1 to 3.

@@ -3,16 +3,16 @@
 use super::gear::{prism_between, simple};
 use super::wall::apart;
 use super::{Expected, Mesh, Solid, SolidError, check};
-use crate::assembly::{Fixture, Post};
+use crate::assembly::{Fixture, Pocket, Post};
 use crate::geometry::{self, Point};
 use crate::policy;
 
-/// The fixture as a checked mesh in its own frame: the plate with its holes, and its posts.
+/// The fixture as a checked mesh in its own frame: the plate with its holes, its posts, and its pockets.
 ///
 /// # Errors
 /// A [`SolidError`]; no mesh comes back that is not sound.
 pub fn fixture_solid(fixture: &Fixture) -> Result<Mesh, SolidError> {
-    let Fixture { name, outline, holes, thickness, posts, .. } = fixture;
+    let Fixture { name, outline, holes, thickness, posts, pockets, .. } = fixture;
     let thickness = *thickness;
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(SolidError::NotPositiveThickness { thickness });
@@ -51,10 +51,56 @@ pub fn fixture_solid(fixture: &Fixture) -> Result<Mesh, SolidError> {
         body = body.subtract(&prism_between(hole, -overhang, top + overhang));
         volume -= geometry::area(hole) * top;
     }
+    for pocket in pockets {
+        volume -= depth_of(name, pocket, holes)? * {
+            let widened = pocket.hole.and_then(|i| holes.get(i));
+            geometry::area(&pocket.ring) - widened.map_or(0.0, |hole| geometry::area(hole))
+        };
+        // Out of the side that it opens to.
+        let (from, to) = if pocket.from > 0.0 {
+            (pocket.from, pocket.to + overhang)
+        } else {
+            (-overhang, pocket.to)
+        };
+        body = body.subtract(&prism_between(&pocket.ring, from, to));
+    }
     let mesh = body.mesh();
     check(&mesh, Expected { volume, genus: holes.len() as i64 })
         .map_err(|fault| SolidError::Unsound { part: name.clone(), fault })?;
     Ok(mesh)
+}
+
+/// The depth of a pocket that surrounds its hole and keeps clear of the others.
+fn depth_of(name: &str, pocket: &Pocket, holes: &[Vec<Point>]) -> Result<f64, SolidError> {
+    let depth = pocket.to - pocket.from;
+    if !(depth > 0.0 && depth.is_finite() && pocket.from >= 0.0) {
+        return Err(SolidError::NotPositiveThickness { thickness: depth });
+    }
+    simple(&format!("{name}'s pocket"), &pocket.ring)?;
+    around(name, "a pocket", &pocket.ring, pocket.hole, holes)?;
+    Ok(depth)
+}
+
+/// Passes a ring that surrounds one hole, if it is to, and keeps clear of the others.
+fn around(
+    name: &str,
+    what: &str,
+    ring: &[Point],
+    own: Option<usize>,
+    holes: &[Vec<Point>],
+) -> Result<(), SolidError> {
+    for (i, hole) in holes.iter().enumerate() {
+        let passes = if own == Some(i) {
+            hole.iter().all(|p| geometry::contains(ring, *p))
+        } else {
+            apart(ring, hole)
+        };
+        if !passes {
+            let (first, second) = (what.to_owned(), format!("hole {}", i + 1));
+            return Err(SolidError::Overlap { part: name.to_owned(), first, second });
+        }
+    }
+    Ok(())
 }
 
 /// The height of a post that surrounds its hole and keeps clear of the others.
@@ -64,17 +110,7 @@ fn height_of(name: &str, post: &Post, holes: &[Vec<Point>]) -> Result<f64, Solid
         return Err(SolidError::NotPositiveThickness { thickness: height });
     }
     simple(&format!("{name}'s post"), &post.ring)?;
-    for (i, hole) in holes.iter().enumerate() {
-        let passes = if post.hole == Some(i) {
-            hole.iter().all(|p| geometry::contains(&post.ring, *p))
-        } else {
-            apart(&post.ring, hole)
-        };
-        if !passes {
-            let (first, second) = ("a post".to_owned(), format!("hole {}", i + 1));
-            return Err(SolidError::Overlap { part: name.to_owned(), first, second });
-        }
-    }
+    around(name, "a post", &post.ring, post.hole, holes)?;
     Ok(height)
 }
 
@@ -100,7 +136,8 @@ mod tests {
                 post(0.0, 2.5, None, 5.0, 14.0),
                 post(40.0, 4.0, Some(0), 4.0, 5.0),
             ],
-            z: -5.0,
+            pockets: Vec::new(),
+            stance: crate::assembly::Stance::flat(-5.0),
         }
     }
 
@@ -113,6 +150,28 @@ mod tests {
         assert!((mesh.volume() / volume - 1.0).abs() < 1e-4, "{} {volume}", mesh.volume());
         let heights: Vec<f64> = mesh.positions.iter().map(|p| p[2]).collect();
         assert!(heights.iter().all(|z| [0.0, 4.0, 5.0, 14.0].contains(z)));
+    }
+
+    #[test]
+    fn pockets_take_what_they_measure() {
+        let mut base = plate();
+        let plain = fixture_solid(&base).unwrap().volume();
+        let ring = |r: f64| {
+            base.holes[0]
+                .iter()
+                .map(|p| Point::new(40.0 + (p.x - 40.0) * r / 2.4, p.y * r / 2.4))
+                .collect::<Vec<_>>()
+        };
+        let areas = [3.5, 3.0].map(|r| geometry::area(&ring(r)) - geometry::area(&base.holes[0]));
+        let [below, above] = [ring(3.5), ring(3.0)];
+        base.pockets = vec![
+            Pocket { ring: below, hole: Some(0), from: 0.0, to: 2.0 },
+            Pocket { ring: above, hole: Some(0), from: 4.5, to: 5.0 },
+        ];
+        let taken = plain - fixture_solid(&base).unwrap().volume();
+        assert!((taken - 2.0 * areas[0] - 0.5 * areas[1]).abs() < 1e-3, "{taken}");
+        base.pockets[0].hole = None;
+        assert!(matches!(fixture_solid(&base), Err(SolidError::Overlap { .. })));
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod gear;
 pub mod hardware;
 mod kernel;
 mod mesh;
+mod nozzle;
 mod screw;
 mod shading;
 mod wall;
@@ -29,6 +30,7 @@ pub use fixture::fixture_solid;
 pub use gear::{assembly_solids, gear_solid};
 pub use kernel::Solid;
 pub use mesh::Mesh;
+pub use nozzle::{NOZZLE, PrintFinding, print_findings};
 pub use shading::{Shading, shade};
 pub use wall::fits;
 

@@ -30,9 +30,12 @@ pub(super) fn add(
         }
         made => made?,
     };
-    let Some((place, height)) = Room::of(gear, taken).and_then(|room| room.best(&made)) else {
-        if own {
-            let (gear, least) = (gear.name.clone(), policy::LETTERS_LEAST);
+    let reach = gear.outline.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+    let near = choice.place.point(reach);
+    let found = Room::of(gear, taken).and_then(|room| room.best(&made, choice.height, near));
+    let Some((place, height)) = found else {
+        if own || choice.height.is_some() {
+            let (gear, least) = (gear.name.clone(), choice.height.unwrap_or(policy::LETTERS_LEAST));
             return Err(OutfitError::NoRoomForText { gear, text, least });
         }
         return Ok(Some(format!("the {} bears no name: there is no room for it", gear.name)));
@@ -90,11 +93,12 @@ impl Room {
         Some(Self { low, cell, across, up, sums })
     }
 
-    /// Lower left corner and height for the largest letters that fit, nearest to the axis.
-    fn best(&self, text: &Lettering) -> Option<(Point, f64)> {
+    /// Lower left corner and height for the largest letters that fit, or for those of a height, nearest to a point.
+    fn best(&self, text: &Lettering, height: Option<f64>, near: Point) -> Option<(Point, f64)> {
         let size = text.high - text.low;
-        let mut height = policy::LETTERS_MOST;
-        while height >= policy::LETTERS_LEAST {
+        let least = height.unwrap_or(policy::LETTERS_LEAST);
+        let mut height = height.unwrap_or(policy::LETTERS_MOST);
+        while height >= least {
             let [w, h] = [size.x, size.y].map(|s| (s * height / self.cell).ceil() as usize);
             let mut found: Option<(f64, Point)> = None;
             for y in 0..(self.up + 1).saturating_sub(h) {
@@ -102,7 +106,7 @@ impl Room {
                     (0..(self.across + 1).saturating_sub(w)).filter(|&x| self.is_free(x, y, w, h))
                 {
                     let corner = Point::new(x as f64, y as f64) * self.cell + self.low.coords;
-                    let away = (corner + 0.5 * size * height).coords.norm();
+                    let away = (corner + 0.5 * size * height - near).norm();
                     if found.is_none_or(|(least, _)| away < least) {
                         found = Some((away, corner));
                     }

@@ -5,13 +5,18 @@
 
 mod base;
 mod hub;
+mod knob;
 mod label;
 mod lightening;
 mod options;
 mod phase;
 mod screws;
+mod stand;
 
-pub use options::{Base, HubChoice, Label, LabelText, Lightening, Outfit, OutfitError, Screws};
+pub use options::{
+    Base, Hold, HubChoice, Label, LabelPlace, LabelText, Lightening, Mount, Outfit, OutfitError,
+    Screws,
+};
 
 use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::geometry::{self, Point, Vector};
@@ -34,6 +39,8 @@ pub fn fit_out(
     let partners: Vec<Option<Vector>> = (0..assembly.gears.len())
         .map(|i| Some(partner(&assembly.gears, i)?.axis - assembly.gears[i].axis))
         .collect();
+    let mut parts = Vec::new();
+    let thickness = assembly.thickness;
     for (i, placed) in assembly.gears.iter_mut().enumerate() {
         let gear = &mut placed.gear;
         gear.fittings.chamfer = outfit.chamfer;
@@ -43,6 +50,9 @@ pub fn fit_out(
         }
         if let Some(choice) = &outfit.screws {
             screws::add(gear, choice, &mut taken)?;
+        }
+        if outfit.knob && i == 0 {
+            parts.push(knob::add(gear, i, thickness, &mut taken)?);
         }
         if outfit.wants_phase_mark()
             && let Some(towards) = partners[i]
@@ -58,9 +68,8 @@ pub fn fit_out(
             warnings.push(format!("the {} has no room for lightening holes", gear.name));
         }
     }
-    if let Some(plate) = base::plate(assembly, outfit)? {
-        assembly.fixtures.push(plate);
-    }
+    assembly.fixtures.extend(base::parts(assembly, outfit)?);
+    assembly.fixtures.extend(parts);
     Ok(warnings)
 }
 

@@ -1,9 +1,10 @@
 //! What may be asked for.
 
 use crate::design::BoreChoice;
-use crate::geometry::{LetteringError, lettering};
+use crate::geometry::{LetteringError, Point, lettering};
 use crate::policy;
-use crate::solid::{Fit, NotAScrew};
+use crate::solid::hardware::{Bearing, Screw};
+use crate::solid::{Fit, NOZZLE, NotAScrew};
 
 /// What the gears carry and stand on. Nothing by default. Lengths in mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,8 +26,18 @@ pub struct Outfit {
     pub chamfer: f64,
     /// What the gears stand on.
     pub base: Base,
-    /// Thickness of its plate.
-    pub base_thickness: f64,
+    /// Thickness of its plate; `None`: what it needs, and no less than is stiff.
+    pub base_thickness: Option<f64>,
+    /// What the plate is held by.
+    pub mount: Mount,
+    /// Whether the plate stands on its edge, in two feet.
+    pub upright: bool,
+    /// Whether caps hold the gears on their pins.
+    pub caps: bool,
+    /// Whether the driver has a knob to turn it by.
+    pub knob: bool,
+    /// Width of the printer's nozzle that the pair is judged for.
+    pub nozzle: f64,
 }
 
 impl Default for Outfit {
@@ -40,7 +51,12 @@ impl Default for Outfit {
             phase_mark: None,
             chamfer: 0.0,
             base: Base::None,
-            base_thickness: policy::BASE_THICKNESS,
+            base_thickness: None,
+            mount: Mount::None,
+            upright: false,
+            caps: false,
+            knob: false,
+            nozzle: NOZZLE,
         }
     }
 }
@@ -56,7 +72,7 @@ pub struct HubChoice {
     pub set_screw: Option<f64>,
 }
 
-/// A circle of holes.
+/// A circle of screw holes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Screws {
     /// How many.
@@ -80,12 +96,58 @@ pub enum Lightening {
 }
 
 /// Lettering.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// What is written.
     pub text: LabelText,
     /// Whether it stands out; else it is sunk in.
     pub raised: bool,
+    /// Height of the capitals; as large as there is room for when `None`.
+    pub height: Option<f64>,
+    /// Where it goes.
+    pub place: LabelPlace,
+}
+
+/// Where lettering goes, as the gear stands in the first pose.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LabelPlace {
+    /// As near to the axis as there is room.
+    #[default]
+    Axis,
+    /// Above the axis.
+    Above,
+    /// Below it.
+    Below,
+    /// Left of it.
+    Left,
+    /// Right of it.
+    Right,
+}
+
+/// How far from the axis lettering is sought that is not to be near it, in reaches of the gear.
+const LABEL_SHARE: f64 = 0.5;
+
+impl LabelPlace {
+    /// All, by their names.
+    pub const ALL: [(&'static str, Self); 5] = [
+        ("axis", Self::Axis),
+        ("above", Self::Above),
+        ("below", Self::Below),
+        ("left", Self::Left),
+        ("right", Self::Right),
+    ];
+
+    /// The point that lettering is to be near, on a gear of this reach.
+    pub(super) fn point(self, reach: f64) -> Point {
+        let far = LABEL_SHARE * reach;
+        match self {
+            Self::Axis => Point::origin(),
+            Self::Above => Point::new(0.0, far),
+            Self::Below => Point::new(0.0, -far),
+            Self::Left => Point::new(-far, 0.0),
+            Self::Right => Point::new(far, 0.0),
+        }
+    }
 }
 
 /// What is written on the gears.
@@ -100,7 +162,7 @@ pub enum LabelText {
 }
 
 /// What the gears stand on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Base {
     /// Nothing.
     #[default]
@@ -109,6 +171,39 @@ pub enum Base {
     Pins,
     /// A plate with holes of a Lego beam every 8 mm, for cross axles.
     Lego,
+    /// A plate with a screw for each gear, which turns on it.
+    Screw {
+        /// The screw.
+        screw: Screw,
+        /// What holds it in the plate.
+        hold: Hold,
+    },
+    /// A plate with a ball bearing for each gear's shaft, and spacers.
+    Bearing(Bearing),
+}
+
+/// What holds a screw in a plate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hold {
+    /// It goes through, from either side.
+    #[default]
+    Through,
+    /// A nut, or its own hexagonal head, in a trap below.
+    Nut,
+    /// A threaded insert that is melted in.
+    Insert,
+}
+
+/// What a plate is held by.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Mount {
+    /// Nothing.
+    #[default]
+    None,
+    /// Four screws at its corners.
+    Screws(Screw),
+    /// Four feet that are pushed into it.
+    Feet,
 }
 
 impl Outfit {
@@ -210,6 +305,9 @@ impl Outfit {
             }
         }
         if let Some(label) = &self.label {
+            if let Some(height) = label.height {
+                size("the height of the letters", height, most)?;
+            }
             let texts: &[String] = match &label.text {
                 LabelText::Names => &[],
                 LabelText::Same(text) => std::slice::from_ref(text),
@@ -219,9 +317,22 @@ impl Outfit {
                 lettering(text, 1.0)?;
             }
         }
-        if self.base != Base::None {
-            size("the thickness of the base", self.base_thickness, most)?;
+        if let Some(base) = self.base_thickness {
+            size("the thickness of the base", base, most)?;
         }
+        let plain = matches!(self.base, Base::None | Base::Lego);
+        let needs = |what, base| Err(OutfitError::Needs { what, base });
+        match () {
+            () if self.caps && self.base != Base::Pins => needs("--caps", "--base pins"),
+            () if self.upright && plain => needs("--upright", "--base pins, M5 or 608"),
+            () if self.mount != Mount::None && plain => {
+                needs("--base-mount", "--base pins, M5 or 608")
+            }
+            () if self.mount == Mount::Feet && self.upright => {
+                needs("--base-mount feet", "a base without --upright")
+            }
+            () => Ok(()),
+        }?;
         Ok(())
     }
 }
@@ -262,6 +373,14 @@ pub enum OutfitError {
         text: String,
         /// Height of the smallest letters that can be printed, mm.
         least: f64,
+    },
+    /// An option without what it belongs to.
+    #[error("{what} needs {base}; give both, or leave {what} out")]
+    Needs {
+        /// The option.
+        what: &'static str,
+        /// What it needs.
+        base: &'static str,
     },
     /// A fit of screws for a bore that is for none.
     #[error(transparent)]

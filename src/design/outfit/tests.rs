@@ -1,5 +1,6 @@
 use super::*;
 use crate::assembly::{Fittings, Fixture};
+use crate::solid::hardware::Screw;
 use crate::solid::{Bore, Fit, assembly_solids};
 use std::f64::consts::{PI, TAU};
 
@@ -122,11 +123,13 @@ fn lightening_holes_keep_rim_hub_and_spokes() {
 
 #[test]
 fn letters_stand_inside_and_leave_the_rest_alone() {
-    let label = |text, raised| Some(Label { text, raised });
+    let label = |text, raised| Some(Label { text, raised, height: None, place: LabelPlace::Axis });
     for (text, raised, letters) in [
         (LabelText::Names, true, [5, 4]),
         (LabelText::Each(vec!["A".into(), "No".into()]), false, [1, 2]),
         (LabelText::Same("Ω+é".into()), true, [4, 4]),
+        // The dot in a 0 is left out: it would stand alone in the hole.
+        (LabelText::Same("2020".into()), true, [4, 4]),
     ] {
         let outfit = Outfit { label: label(text, raised), ..Outfit::default() };
         let (assembly, warnings) = fitted(&outfit).unwrap();
@@ -149,6 +152,26 @@ fn letters_stand_inside_and_leave_the_rest_alone() {
     let warnings = fit_out(&mut assembly, &outfit, &names, MODULE).unwrap();
     assert!(warnings.len() == 1 && warnings[0].contains("driver"), "{warnings:?}");
     assert_eq!(assembly.gears[1].gear.fittings.marks.len(), 1 + 4);
+}
+
+#[test]
+fn letters_have_the_height_and_place_asked_for() {
+    for (place, along) in [
+        (LabelPlace::Above, Vector::new(0.0, 1.0)),
+        (LabelPlace::Below, Vector::new(0.0, -1.0)),
+        (LabelPlace::Left, Vector::new(-1.0, 0.0)),
+        (LabelPlace::Right, Vector::new(1.0, 0.0)),
+    ] {
+        let text = LabelText::Same("H".into());
+        let label = Label { text, raised: true, height: Some(5.0), place };
+        let outfit = Outfit { label: Some(label), phase_mark: Some(false), ..Outfit::default() };
+        let (assembly, _) = fitted(&outfit).unwrap();
+        let face = &assembly.gears[0].gear.fittings.marks[0].face[0];
+        let (low, high) = geometry::bounds(face);
+        assert!((high.y - low.y - 5.0).abs() < 1e-6);
+        let middle = nalgebra::center(&low, &high).coords;
+        assert!(middle.dot(&along) > 0.9 * middle.norm() && middle.norm() > 15.0, "{middle}");
+    }
 }
 
 #[test]
@@ -193,13 +216,148 @@ fn pins_stand_on_the_axes_and_leave_play() {
         let pin = (geometry::area(&base.posts[1].ring) / PI).sqrt();
         assert!((pin - (2.5 - play)).abs() < 0.01, "{pin}");
         // The gears rest on the shoulders and the pins go through them.
-        assert_eq!(base.posts[0].to + base.z, 0.0);
-        assert_eq!(base.posts[1].to + base.z, 8.0 + policy::PIN_OVERHANG);
+        let z = base.stance.height_of_flat().unwrap();
+        assert_eq!(base.posts[0].to + z, 0.0);
+        assert_eq!(base.posts[1].to + z, 8.0 + policy::PIN_OVERHANG);
     }
     let mut bare = pair(Bore::None);
     let outfit = Outfit { base: Base::Pins, ..Outfit::default() };
     let error = fit_out(&mut bare, &outfit, &names(), MODULE).unwrap_err();
     assert!(matches!(error, OutfitError::NoBore { .. }));
+}
+
+/// World heights between which a part lies in the first pose, and its middle.
+fn standing(assembly: &Assembly, part: &Fixture) -> ([f64; 2], nalgebra::Point3<f64>) {
+    let mesh = crate::solid::fixture_solid(part).unwrap();
+    let pose = assembly.pose_of(part);
+    let points = mesh.positions.iter().map(|p| pose * nalgebra::Point3::from(*p));
+    let (low, high) = points.fold(
+        ([f64::INFINITY; 3].into(), [f64::NEG_INFINITY; 3].into()),
+        |(low, high): (nalgebra::Point3<f64>, nalgebra::Point3<f64>), p| {
+            (low.inf(&p), high.sup(&p))
+        },
+    );
+    ([low.z, high.z], nalgebra::center(&low, &high))
+}
+
+fn part<'a>(assembly: &'a Assembly, name: &str) -> &'a Fixture {
+    assembly.fixtures.iter().find(|f| f.name == name).unwrap_or_else(|| panic!("no {name}"))
+}
+
+#[test]
+fn caps_sit_on_the_pins_and_leave_the_gears_play() {
+    let outfit = Outfit { base: Base::Pins, caps: true, ..Outfit::default() };
+    let (assembly, _) = fitted(&outfit).unwrap();
+    assert!(assembly_solids(&assembly).is_ok());
+    for (name, x) in [("driver-cap", 0.0), ("follower-cap", 80.0)] {
+        let cap = part(&assembly, name);
+        let ([low, high], middle) = standing(&assembly, cap);
+        assert!((0.2..0.6).contains(&(low - 8.0)), "{low}");
+        assert!((middle.x - x).abs() < 0.05 && middle.y.abs() < 0.05);
+        let base = part(&assembly, "base");
+        let pin = base.posts[1].to + base.stance.height_of_flat().unwrap();
+        assert!(pin > low + 3.0 && pin < high - 1.0, "{pin} {low} {high}");
+        // It opens downwards.
+        assert!(assembly.pose_of(cap).transform_point(&nalgebra::Point3::origin()).z > low + 5.0);
+    }
+    let error = Outfit { caps: true, ..Outfit::default() }.check(8.0).unwrap_err();
+    assert!(matches!(error, OutfitError::Needs { .. }));
+}
+
+#[test]
+fn a_knob_stands_on_the_driver_and_turns_with_it() {
+    let (assembly, _) = fitted(&Outfit { knob: true, ..Outfit::default() }).unwrap();
+    assert!(assembly_solids(&assembly).is_ok());
+    let knob = part(&assembly, "knob");
+    assert_eq!(knob.stance.with, Some(0));
+    let hole = &assembly.gears[0].gear.fittings.openings[0].ring;
+    let ([low, high], at) = standing(&assembly, knob);
+    assert!((at.xy() - middle(hole)).norm() < 0.05, "{at}");
+    assert!(low > 0.0 && low < 1.0 && (high - 24.0).abs() < 1e-6, "{low} {high}");
+    // As far out as the grip stays over the gear.
+    let outline = &assembly.gears[0].gear.outline;
+    let beyond =
+        outline.iter().map(|p| (p.coords - at.xy().coords).norm()).fold(f64::MAX, f64::min);
+    assert!(beyond > 5.9 && at.xy().coords.norm() > 30.0, "{beyond} {at}");
+}
+
+#[test]
+fn screws_and_bearings_are_held_as_asked() {
+    let fitted = |bore: Bore, base| {
+        let mut assembly = pair(bore);
+        let outfit = Outfit { base, ..Outfit::default() };
+        fit_out(&mut assembly, &outfit, &names(), MODULE)?;
+        assert!(assembly_solids(&assembly).is_ok());
+        Ok::<_, OutfitError>(assembly)
+    };
+    let round = |diameter| Bore::Round { diameter };
+    for screw in crate::solid::hardware::SCREWS {
+        for hold in [Hold::Through, Hold::Nut, Hold::Insert] {
+            let Ok(assembly) = fitted(round(screw.clearance[0]), Base::Screw { screw, hold })
+            else {
+                assert!(hold == Hold::Insert && screw.insert.is_none());
+                continue;
+            };
+            let base = part(&assembly, "base");
+            let hole = (geometry::area(&base.holes[0]) / PI).sqrt();
+            let wanted = match (hold, screw.insert) {
+                (Hold::Insert, Some([hole, depth])) => {
+                    assert!(base.posts[0].to > depth - 1e-9);
+                    hole
+                }
+                _ => screw.clearance[0],
+            };
+            assert!((2.0 * hole - wanted).abs() < 0.02, "{} {hole}", screw.name);
+            assert_eq!(base.pockets.len(), if hold == Hold::Nut { 2 } else { 0 });
+            for trap in &base.pockets {
+                assert!(trap.from == 0.0 && trap.to > screw.nut_height);
+                let (low, high) = geometry::bounds(&trap.ring);
+                let flats = (high.y - low.y).min(high.x - low.x);
+                assert!((0.2..0.5).contains(&(flats - screw.across_flats)), "{flats}");
+            }
+        }
+    }
+    for bearing in crate::solid::hardware::BEARINGS {
+        let assembly = fitted(round(bearing.shaft + 0.3), Base::Bearing(bearing)).unwrap();
+        let base = part(&assembly, "base");
+        let seat = &base.pockets[1];
+        let wide = 2.0 * (geometry::area(&seat.ring) / PI).sqrt();
+        assert!((wide - bearing.outside - 0.1).abs() < 0.02, "{wide}");
+        assert!((seat.to - seat.from - bearing.width).abs() < 1e-9 && seat.from > 1.0);
+        // The spacer fills the gap between plate and gear and touches the inner race only.
+        let ([low, high], at) = standing(&assembly, part(&assembly, "follower-spacer"));
+        assert!((low + 1.0).abs() < 1e-6 && high.abs() < 1e-6 && (at.x - 80.0).abs() < 0.05);
+    }
+    let m5 = Screw::named("M5").unwrap();
+    let error = fitted(round(8.0), Base::Screw { screw: m5, hold: Hold::Nut }).unwrap_err();
+    assert!(error.to_string().contains("--bore M5"), "{error}");
+}
+
+#[test]
+fn an_upright_plate_and_its_feet_go_into_each_other() {
+    let outfit = Outfit { base: Base::Pins, upright: true, ..Outfit::default() };
+    let (assembly, _) = fitted(&outfit).unwrap();
+    assert!(assembly_solids(&assembly).is_ok());
+    let base = part(&assembly, "base");
+    let floor = geometry::bounds(&base.outline).0.y;
+    // Clear of the teeth.
+    assert!(floor + 16.0 < -42.0, "{floor}");
+    for name in ["stand-1", "stand-2"] {
+        let foot = part(&assembly, name);
+        let pose = assembly.pose_of(foot);
+        for p in &foot.outline {
+            for z in [0.0, foot.thickness] {
+                let at = pose * nalgebra::Point3::new(p.x, p.y, z);
+                assert!(at.y > floor - 1e-6);
+                // Nothing of the foot is inside the plate: what crosses it goes through the notch.
+                let depth = at.z - base.stance.place.translation.z;
+                let inside = (0.0..base.thickness).contains(&depth);
+                assert!(!inside || !geometry::contains(&base.outline, Point::new(at.x, at.y)));
+            }
+        }
+    }
+    let feet = Outfit { mount: Mount::Feet, ..outfit };
+    assert!(matches!(feet.check(8.0), Err(OutfitError::Needs { .. })));
 }
 
 #[test]
@@ -226,15 +384,25 @@ fn all_of_it_goes_together() {
         hub: Some(HubChoice { diameter: None, height: 6.0, set_screw: Some(2.5) }),
         screws: None,
         lightening: Lightening::Auto,
-        label: Some(Label { text: LabelText::Names, raised: true }),
+        label: Some(Label {
+            text: LabelText::Names,
+            raised: true,
+            height: Some(3.0),
+            place: LabelPlace::Above,
+        }),
         phase_mark: None,
         chamfer: 0.4,
         base: Base::Pins,
-        base_thickness: 4.0,
+        base_thickness: Some(4.0),
+        mount: Mount::Feet,
+        upright: false,
+        caps: true,
+        knob: true,
+        nozzle: 0.4,
     };
     let (assembly, warnings) = fitted(&outfit).unwrap();
     assert!(warnings.is_empty(), "{warnings:?}");
-    assert_eq!(assembly_solids(&assembly).map(|m| m.len()), Ok(3));
+    assert_eq!(assembly_solids(&assembly).map(|m| m.len()), Ok(2 + 1 + 2 + 4 + 1));
 }
 
 #[test]
@@ -253,7 +421,7 @@ fn sizes_out_of_range_are_refused_with_what_would_do() {
         Outfit { screws: screws(0), ..plain() },
         Outfit { screws: screws(99), ..plain() },
         Outfit { lightening: Lightening::Holes(1), ..plain() },
-        Outfit { base: Base::Pins, base_thickness: 0.0, ..plain() },
+        Outfit { base: Base::Pins, base_thickness: Some(0.0), ..plain() },
     ] {
         let error = outfit.check(8.0).unwrap_err();
         assert!(matches!(error, OutfitError::BadSize { .. }), "{outfit:?}");

@@ -4,16 +4,18 @@ mod r12;
 mod r2000;
 
 use super::contours::{Contour, contour};
+use super::flat::flat;
 use super::{Export, ExportError, Parts, write_atomically};
-use crate::assembly::{Assembly, PlacedGear};
+use crate::assembly::{Assembly, Fixture, PlacedGear};
 use crate::geometry::Point;
 use crate::policy;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// `pair.dxf` with all gears in mesh, and `<gear>.dxf` with each alone, its axis at the origin; mm.
+/// `pair.dxf` with all gears in mesh, and `<gear>.dxf` with each alone, its axis at the origin; the same for plates
+/// beside the gears, such as `base.dxf`; mm.
 ///
-/// One closed polyline with bulges per contour, round bores as circles. Layers: one per gear, named
+/// One closed polyline with bulges per contour, round bores as circles. Layers: one per part, named
 /// like it, `bores`, `openings` (other holes), `pitch-curves`, `centres`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dxf {
@@ -38,7 +40,10 @@ const CENTRES: &str = "centres";
 
 impl Export for Dxf {
     fn file_names(&self, assembly: &Assembly) -> Vec<String> {
-        let alone = assembly.gears.iter().map(|g| format!("{}.dxf", g.gear.name));
+        let gears = assembly.gears.iter().map(|g| g.gear.name.as_str());
+        let plates =
+            assembly.fixtures.iter().filter(|f| flat(f).is_some()).map(|f| f.name.as_str());
+        let alone = gears.chain(plates).map(|name| format!("{name}.dxf"));
         std::iter::once("pair.dxf".to_owned()).chain(alone).collect()
     }
 
@@ -53,14 +58,53 @@ impl Export for Dxf {
             .map(|g| self.drawn(g).map_err(|why| encode(&paths[0], why)))
             .collect::<Result<_, _>>()?;
         let gears = &parts.assembly.gears;
+        let plates: Vec<Plate> = parts
+            .assembly
+            .fixtures
+            .iter()
+            .filter_map(|fixture| self.plate(fixture).transpose())
+            .collect::<Result<_, _>>()
+            .map_err(|why| encode(&paths[0], why))?;
         let mut sheets = vec![Self::sheet(gears.iter().zip(&drawn), true)];
         sheets.extend(gears.iter().zip(&drawn).map(|g| Self::sheet([g].into_iter(), false)));
+        for plate in &plates {
+            // What stands on edge has no place in a picture from above.
+            if let Some(shift) = plate.shift {
+                plate.draw(&mut sheets[0], shift);
+            }
+        }
+        sheets.extend(plates.iter().map(|plate| {
+            let mut sheet = Sheet::empty();
+            plate.draw(&mut sheet, Point::origin());
+            sheet
+        }));
         for (path, sheet) in paths.iter().zip(&sheets) {
             let text = if self.r12 { r12::text(sheet) } else { r2000::text(sheet) };
             let text = text.map_err(|why| encode(path, why))?;
             write_atomically(path, |out| out.write_all(text.as_bytes()))?;
         }
         Ok(paths)
+    }
+}
+
+/// The contours of a plate in its own frame.
+struct Plate {
+    layer: String,
+    outline: Contour,
+    holes: Vec<Contour>,
+    /// Where it lies in the world; none for one that does not lie flat.
+    shift: Option<Point>,
+}
+
+impl Plate {
+    fn draw(&self, sheet: &mut Sheet, shift: Point) {
+        sheet.layers.push((self.layer.clone(), 9));
+        let mut add = |what: &Contour, layer: &str| {
+            sheet.items.push((layer.to_owned(), Item::Contour(what.placed(0.0, shift))));
+        };
+        add(&self.outline, &self.layer);
+        // In the layer of the plate, so that it can be cut or hidden as a whole.
+        self.holes.iter().for_each(|hole| add(hole, &self.layer));
     }
 }
 
@@ -87,14 +131,23 @@ impl Dxf {
         })
     }
 
+    fn plate(&self, fixture: &Fixture) -> Result<Option<Plate>, String> {
+        let Some(cut) = flat(fixture) else { return Ok(None) };
+        let drawn = |ring: &[Point]| contour(ring, self.tolerance, true, self.polyline);
+        let place = fixture.stance.place;
+        let shift = (place.rotation.angle() == 0.0 && fixture.stance.with.is_none())
+            .then(|| Point::new(place.translation.x, place.translation.y));
+        Ok(Some(Plate {
+            layer: plain(&fixture.name),
+            outline: drawn(cut.outline)?,
+            holes: cut.holes.into_iter().map(drawn).collect::<Result<_, _>>()?,
+            shift,
+        }))
+    }
+
     /// The gears in mesh, or one alone with its axis at the origin.
     fn sheet<'a>(gears: impl Iterator<Item = (&'a PlacedGear, &'a Drawn)>, in_mesh: bool) -> Sheet {
-        let mut sheet = Sheet {
-            layers: [(BORES, 1), (OPENINGS, 6), (PITCH_CURVES, 8), (CENTRES, 3)]
-                .map(|(name, color)| (name.to_owned(), color))
-                .to_vec(),
-            items: Vec::new(),
-        };
+        let mut sheet = Sheet::empty();
         for (number, (placed, drawn)) in gears.enumerate() {
             let layer = plain(&placed.gear.name);
             sheet.layers.push((layer.clone(), if number.is_multiple_of(2) { 5 } else { 4 }));
@@ -123,6 +176,16 @@ struct Sheet {
     layers: Vec<(String, u8)>,
     /// Each on a layer.
     items: Vec<(String, Item)>,
+}
+
+impl Sheet {
+    fn empty() -> Self {
+        let layers = [(BORES, 1), (OPENINGS, 6), (PITCH_CURVES, 8), (CENTRES, 3)];
+        Self {
+            layers: layers.map(|(name, color)| (name.to_owned(), color)).to_vec(),
+            items: Vec::new(),
+        }
+    }
 }
 
 enum Item {

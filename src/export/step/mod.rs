@@ -8,16 +8,18 @@ mod prism;
 
 use super::contours::{color, halves, traced};
 use super::{Export, ExportError, Parts, write_atomically};
-use crate::assembly::{Assembly, Gear, PlacedGear};
-use crate::geometry::curves::{Stretch, round_hole};
+use crate::assembly::{Assembly, Fixture, Gear, Post};
+use crate::geometry::curves::{Arc, Stretch, round_hole};
 use crate::geometry::{self, Point};
 use crate::policy;
 use entities::{Entities, Id, text};
+use nalgebra::{Isometry3, Vector3};
+use prism::{Figure, Level, Stack, Through};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// `pair.step`: one product per gear with its name and colour, placed in mesh, mm. A gear has its bore, its
-/// other holes and its hub; marks, bevels and holes for set screws are left to the solids.
+/// `pair.step`: one product per part with its name and colour, placed in mesh, mm. A gear has its bore, its other holes,
+/// its hub, letters and marks; bevels and holes for set screws are left to the solids.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// Greatest distance between a vertex of the outline and its curve, mm.
@@ -76,17 +78,28 @@ impl Step {
         let common = common(&mut e);
         let home = e.frame([0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
         let (mut placed, mut styled) = (Vec::new(), Vec::new());
-        for (number, gear) in assembly.gears.iter().enumerate() {
-            let solid = self.solid(&mut e, &gear.gear, assembly.thickness)?;
-            let name = text(&gear.gear.name);
+        let mut add = |e: &mut Entities, name: &str, stack: &Stack, color, pose| {
+            let name = text(name);
+            let solid = prism::solid(e, &name, stack)?;
             let shape = e.add(format!(
                 "ADVANCED_BREP_SHAPE_REPRESENTATION({name},({home},{solid}),{})",
                 common.space
             ));
-            let definition = product(&mut e, &common, &name, shape);
-            styled.push(style(&mut e, solid, color(number)));
-            let place = place(&mut e, gear);
+            let definition = product(e, &common, &name, shape);
+            styled.push(style(e, solid, color));
+            let place = place(e, &pose);
             placed.push((name, definition, shape, place));
+            Ok::<(), String>(())
+        };
+        for (number, gear) in assembly.gears.iter().enumerate() {
+            let stack = self.gear(&gear.gear, assembly.thickness)?;
+            let pose = assembly.first_pose(number);
+            add(&mut e, &gear.gear.name, &stack, color(number), pose)?;
+        }
+        for fixture in &assembly.fixtures {
+            let stack = self.fixture(fixture)?;
+            let pose = assembly.pose_of(fixture);
+            add(&mut e, &fixture.name, &stack, policy::FIXTURE_COLOR, pose)?;
         }
         let items: Vec<String> = std::iter::once(home)
             .chain(placed.iter().map(|p| p.3))
@@ -118,22 +131,77 @@ impl Step {
         Ok(e)
     }
 
-    fn solid(&self, e: &mut Entities, gear: &Gear, thickness: f64) -> Result<Id, String> {
-        let hole = |ring: &Vec<Point>| -> Result<Vec<Stretch>, String> {
-            Ok(self.ring(ring, true)?.iter().rev().map(prism::reversed).collect())
-        };
+    /// A gear with what it carries.
+    fn gear(&self, gear: &Gear, thickness: f64) -> Result<Stack, String> {
         let fittings = &gear.fittings;
-        let stack = prism::Stack {
-            outline: self.ring(&gear.outline, false)?,
-            openings: fittings.openings.iter().map(|o| hole(&o.ring)).collect::<Result<_, _>>()?,
-            bore: gear.bore.as_ref().map(hole).transpose()?,
-            height: thickness,
-            hub: fittings.hub.map(|hub| {
-                let circle = halves(Point::origin(), hub.radius).map(Stretch::Arc).to_vec();
-                (circle, thickness + hub.height)
-            }),
+        let mut steps = Vec::new();
+        let mut top = Level::Top;
+        if let Some(hub) = fittings.hub {
+            let circle = halves(Point::origin(), hub.radius).map(Stretch::Arc).to_vec();
+            top = Level::Step(0);
+            steps.push(Figure { on: Level::Top, rings: vec![circle], to: thickness + hub.height });
+        }
+        // Letters are drawn with few chords: their edges stay as they are.
+        steps.extend(fittings.marks.iter().map(|mark| Figure {
+            on: Level::Top,
+            rings: mark.face.iter().map(|ring| straight(ring)).collect(),
+            to: thickness + mark.height,
+        }));
+        let mut holes = Vec::new();
+        for opening in &fittings.openings {
+            let ring = self.hole(&opening.ring)?;
+            holes.push(Through { ring, from: Level::Bottom, to: Level::Top });
+        }
+        if let Some(bore) = &gear.bore {
+            holes.push(Through { ring: self.hole(bore)?, from: Level::Bottom, to: top });
+        }
+        Ok(Stack { outline: self.ring(&gear.outline, false)?, height: thickness, steps, holes })
+    }
+
+    /// A part beside the gears: a plate with posts, holes and pockets.
+    fn fixture(&self, fixture: &Fixture) -> Result<Stack, String> {
+        let height = fixture.thickness;
+        let mut steps: Vec<Figure> = Vec::new();
+        // Upper face that something stands on or is sunk into.
+        let upper = |at: f64, ring: &[Point]| {
+            let below = |p: &Post| p.to == at && geometry::contains(&p.ring, ring[0]);
+            fixture.posts.iter().position(below).map_or(Level::Top, Level::Step)
         };
-        prism::solid(e, &text(&gear.name), &stack)
+        for post in &fixture.posts {
+            let rings = vec![self.ring(&post.ring, true)?];
+            steps.push(Figure { on: upper(post.from, &post.ring), rings, to: post.to });
+        }
+        for pocket in &fixture.pockets {
+            let rings = vec![self.ring(&pocket.ring, true)?];
+            let below = pocket.from == 0.0;
+            let (on, to) = if below {
+                (Level::Bottom, pocket.to)
+            } else {
+                (upper(pocket.to, &pocket.ring), pocket.from)
+            };
+            steps.push(Figure { on, rings, to });
+        }
+        let mut holes = Vec::new();
+        for (i, hole) in fixture.holes.iter().enumerate() {
+            let (mut from, mut to) = (Level::Bottom, Level::Top);
+            let highest = fixture.posts.iter().enumerate().filter(|(_, p)| p.hole == Some(i));
+            if let Some((post, _)) = highest.max_by(|a, b| a.1.to.total_cmp(&b.1.to)) {
+                to = Level::Step(post);
+            }
+            for (k, pocket) in fixture.pockets.iter().enumerate() {
+                if pocket.hole == Some(i) {
+                    let end = Level::Step(fixture.posts.len() + k);
+                    *(if pocket.from == 0.0 { &mut from } else { &mut to }) = end;
+                }
+            }
+            holes.push(Through { ring: self.hole(hole)?, from, to });
+        }
+        Ok(Stack { outline: self.ring(&fixture.outline, true)?, height, steps, holes })
+    }
+
+    /// The stretches of a hole, clockwise.
+    fn hole(&self, points: &[Point]) -> Result<Vec<Stretch>, String> {
+        Ok(self.ring(points, true)?.iter().rev().map(prism::reversed).collect())
     }
 
     /// The stretches of a counter-clockwise ring.
@@ -152,6 +220,12 @@ impl Step {
         }
         Ok(trace.stretches().iter().flat_map(parts).collect())
     }
+}
+
+/// The edges of a ring as they are.
+fn straight(points: &[Point]) -> Vec<Stretch> {
+    let ends = points.iter().zip(points.iter().cycle().skip(1));
+    ends.map(|(a, b)| Stretch::Line(Arc::line(*a, *b))).collect()
 }
 
 /// A long curve in parts of a few spans, so that faces stay handy and no face meets itself.
@@ -225,10 +299,11 @@ fn style(e: &mut Entities, solid: Id, color: [u8; 3]) -> Id {
     e.add(format!("STYLED_ITEM('color',({style}),{solid})"))
 }
 
-/// Where a gear stands in its first pose.
-fn place(e: &mut Entities, placed: &PlacedGear) -> Id {
-    let (sin, cos) = placed.angle.first().copied().unwrap_or(0.0).sin_cos();
-    e.frame([placed.axis.x, placed.axis.y, placed.level], [0.0, 0.0, 1.0], [cos, sin, 0.0])
+/// A frame as a pose moves it.
+fn place(e: &mut Entities, pose: &Isometry3<f64>) -> Id {
+    let axis = |v: Vector3<f64>| (pose.rotation * v).into();
+    let at: [f64; 3] = pose.translation.vector.into();
+    e.frame(at, axis(Vector3::z()), axis(Vector3::x()))
 }
 
 #[cfg(test)]
@@ -238,9 +313,12 @@ mod tests {
     use std::collections::HashMap;
 
     fn written() -> String {
-        let (assembly, meshes) = wavy_pair();
+        written_of(&wavy_pair().0)
+    }
+
+    fn written_of(assembly: &Assembly) -> String {
         let folder = tempfile::tempdir().unwrap();
-        let parts = Parts { assembly: &assembly, meshes: &meshes };
+        let parts = Parts { assembly, meshes: &[] };
         let path = Step::default().write(parts, folder.path()).unwrap().remove(0);
         std::fs::read_to_string(path).unwrap()
     }
@@ -248,6 +326,21 @@ mod tests {
     #[test]
     fn every_edge_is_used_once_each_way() {
         let text = written();
+        let (edges, inner_loops) = (closed(&text), 4);
+        let count = |what: &str| text.lines().filter(|l| l.contains(what)).count();
+        // Euler: a ring with a hole through it has V - E + F = 0 once the two cap loops are counted.
+        assert_eq!(count("=FACE_BOUND("), inner_loops);
+        assert_eq!(count("=VERTEX_POINT(") + count("=ADVANCED_FACE("), edges + inner_loops);
+        assert_eq!(count("=MANIFOLD_SOLID_BREP("), 2);
+        assert_eq!(
+            count("=CYLINDRICAL_SURFACE("),
+            2 + 4,
+            "both halves of the round bore and the four fillets of the cross"
+        );
+    }
+
+    /// Passes shells in which every edge is used once each way; how many edges.
+    fn closed(text: &str) -> usize {
         let mut uses: HashMap<&str, [u32; 2]> = HashMap::new();
         for line in text.lines().filter(|l| l.contains("=ORIENTED_EDGE(")) {
             let inside = line.split_once("*,*,").unwrap().1;
@@ -257,17 +350,50 @@ mod tests {
         let edges = text.lines().filter(|l| l.contains("=EDGE_CURVE(")).count();
         assert_eq!(uses.len(), edges);
         assert!(uses.values().all(|&u| u == [1, 1]));
-        // Euler: a ring with a hole through it has V - E + F = 0 once the two cap loops are counted.
+        edges
+    }
+
+    #[test]
+    fn steps_holes_pockets_and_letters_close_too() {
+        use crate::assembly::{Hub, Mark, Pocket, Stance};
+        let ring = |x: f64, r: f64| -> Vec<Point> {
+            crate::solid::circle(r, 0.01).iter().map(|p| Point::new(p.x + x, p.y)).collect()
+        };
+        let back = |x, r| ring(x, r).into_iter().rev().collect();
+        let (mut assembly, _) = wavy_pair();
+        let fittings = &mut assembly.gears[0].gear.fittings;
+        fittings.hub = Some(Hub { radius: 8.0, height: 4.0, set_screw: None });
+        for (x, height) in [(18.0, 0.6), (-18.0, -0.4)] {
+            let face = vec![ring(x, 4.0), back(x, 2.0)];
+            fittings.marks.push(Mark { name: "O".to_owned(), face, height });
+        }
+        let post = |x, r, hole, from, to| Post { ring: ring(x, r), hole, from, to };
+        assembly.fixtures.push(Fixture {
+            holes: vec![ring(40.0, 2.0)],
+            posts: vec![
+                post(0.0, 5.0, None, 4.0, 5.0),
+                post(0.0, 2.0, None, 5.0, 9.0),
+                post(40.0, 6.0, Some(0), 4.0, 5.0),
+            ],
+            pockets: vec![
+                Pocket { ring: ring(40.0, 3.0), hole: Some(0), from: 0.0, to: 2.0 },
+                Pocket { ring: ring(40.0, 4.0), hole: Some(0), from: 3.0, to: 5.0 },
+                Pocket { ring: ring(70.0, 4.0), hole: None, from: 3.0, to: 4.0 },
+            ],
+            stance: Stance::on_edge([1.0, 2.0, 3.0]).turning_with(1),
+            ..super::super::tests::base()
+        });
+        let text = written_of(&assembly);
+        let edges = closed(&text);
         let count = |what: &str| text.lines().filter(|l| l.contains(what)).count();
-        let inner_loops = count("=FACE_BOUND(");
-        assert_eq!(inner_loops, 4);
-        assert_eq!(count("=VERTEX_POINT(") + count("=ADVANCED_FACE("), edges + inner_loops);
-        assert_eq!(count("=MANIFOLD_SOLID_BREP("), 2);
-        assert_eq!(
-            count("=CYLINDRICAL_SURFACE("),
-            2 + 4,
-            "both halves of the round bore and the four fillets of the cross"
-        );
+        assert_eq!(count("=MANIFOLD_SOLID_BREP("), 3);
+        // Inner loops: two caps and the hub's end of the first gear with its foot and two letters, and the letters' ends;
+        // two caps of the second; of the plate those of a post, the pin on it, the post about the hole, the hole's two
+        // ends, and the three pockets.
+        let inner = (1 + 1 + 1 + 2 + 2) + 2 + (1 + 1 + 1 + 2 + 3);
+        assert_eq!(count("=FACE_BOUND("), inner);
+        // V - E + F - inner loops = 2 (bodies - holes).
+        assert_eq!(count("=VERTEX_POINT(") + count("=ADVANCED_FACE("), edges + inner);
     }
 
     #[test]

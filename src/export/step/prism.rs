@@ -23,58 +23,109 @@ struct Edges {
     curves: Vec<Id>,
 }
 
-/// What stands on what: every ring with the material on its left, the outer one counter-clockwise, holes
-/// clockwise. Heights in mm.
-pub(super) struct Stack {
-    /// The outline.
-    pub(super) outline: Vec<Stretch>,
-    /// Holes through the body.
-    pub(super) openings: Vec<Vec<Stretch>>,
-    /// The hole through body and hub.
-    pub(super) bore: Option<Vec<Stretch>>,
-    /// Height of the body.
-    pub(super) height: f64,
-    /// What stands on the body, counter-clockwise, and the height of its top.
-    pub(super) hub: Option<(Vec<Stretch>, f64)>,
+/// A level face of a stack: where things stand on it or are sunk into it, and where holes end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Level {
+    /// The underside of the body.
+    Bottom,
+    /// The top of the body.
+    Top,
+    /// The far end of a step, by its number.
+    Step(usize),
 }
 
-/// The solid of a stack, from z = 0 on. Edges are shared by the faces that meet in them.
+/// A figure raised on a level face or sunk into it.
+pub(super) struct Figure {
+    /// The face.
+    pub(super) on: Level,
+    /// The figure's edge counter-clockwise, then its holes clockwise.
+    pub(super) rings: Vec<Vec<Stretch>>,
+    /// Height of its far end, mm: above an upper face it is raised, else sunk.
+    pub(super) to: f64,
+}
+
+/// A hole between two level faces, clockwise.
+pub(super) struct Through {
+    pub(super) ring: Vec<Stretch>,
+    pub(super) from: Level,
+    pub(super) to: Level,
+}
+
+/// A body between two planes with steps and holes, from z = 0 on; mm.
+pub(super) struct Stack {
+    /// Its edge, counter-clockwise.
+    pub(super) outline: Vec<Stretch>,
+    /// Height of the body.
+    pub(super) height: f64,
+    /// Steps, each after the one that it stands on.
+    pub(super) steps: Vec<Figure>,
+    /// Holes.
+    pub(super) holes: Vec<Through>,
+}
+
+/// A level face in the making.
+struct Floor {
+    z: f64,
+    up: bool,
+    /// The outer loop, then those of what interrupts it.
+    loops: Vec<Vec<(Id, bool)>>,
+}
+
+impl Floor {
+    fn at(z: f64, up: bool) -> Self {
+        Self { z, up, loops: Vec::new() }
+    }
+}
+
+/// The solid of a stack. Edges are shared by the faces that meet in them: a wall runs along its lower edges and back along
+/// its upper ones, so the face at its foot takes the lower ones backwards and the face at its top the upper ones forwards,
+/// whichever side of the wall the material is on.
 ///
 /// # Errors
-/// Half a sentence when a ring does not close.
+/// Half a sentence when a ring does not close or a step stands on nothing.
 pub(super) fn solid(e: &mut Entities, name: &str, stack: &Stack) -> Result<Id, String> {
+    let foot = |edges: &Edges| edges.bottom.iter().rev().map(|&i| (i, false)).collect::<Vec<_>>();
+    let top = |edges: &Edges| edges.top.iter().map(|&i| (i, true)).collect::<Vec<_>>();
     let mut faces = Vec::new();
-    let top = stack.hub.as_ref().map_or(stack.height, |hub| hub.1);
+    let mut floors = vec![Floor::at(0.0, false), Floor::at(stack.height, true)];
     let outline = wall(e, &stack.outline, [0.0, stack.height], &mut faces)?;
-    let mut openings = Vec::new();
-    for ring in &stack.openings {
-        openings.push(wall(e, ring, [0.0, stack.height], &mut faces)?);
+    floors[0].loops.push(foot(&outline));
+    floors[1].loops.push(top(&outline));
+    let mut islands = Vec::new();
+    for step in &stack.steps {
+        let on = number(step.on);
+        let (z, up) = floors.get(on).map(|f| (f.z, f.up)).ok_or("a step stands on nothing")?;
+        let raised = up && step.to > z;
+        let mut end = Floor::at(step.to, up);
+        for (i, ring) in step.rings.iter().enumerate() {
+            let heights = [z.min(step.to), z.max(step.to)];
+            let edges = if raised {
+                wall(e, ring, heights, &mut faces)?
+            } else {
+                let back: Vec<Stretch> = ring.iter().rev().map(reversed).collect();
+                wall(e, &back, heights, &mut faces)?
+            };
+            let (near, far) =
+                if step.to > z { (foot(&edges), top(&edges)) } else { (top(&edges), foot(&edges)) };
+            end.loops.push(far);
+            if i == 0 {
+                floors[on].loops.push(near);
+            } else {
+                // What is left of the face inside a hole of the figure.
+                islands.push(Floor { z, up, loops: vec![near] });
+            }
+        }
+        floors.push(end);
     }
-    let bore = match &stack.bore {
-        Some(ring) => Some(wall(e, ring, [0.0, top], &mut faces)?),
-        None => None,
-    };
-    let hub = match &stack.hub {
-        Some((ring, top)) => Some(wall(e, ring, [stack.height, *top], &mut faces)?),
-        None => None,
-    };
-    // From below a ring runs the other way.
-    let below = |edges: &Edges| edges.bottom.iter().rev().map(|&i| (i, false)).collect::<Vec<_>>();
-    let above = |edges: &Edges| edges.top.iter().map(|&i| (i, true)).collect::<Vec<_>>();
-    let mut underside = vec![below(&outline)];
-    underside.extend(openings.iter().chain(&bore).map(below));
-    let mut face = vec![above(&outline)];
-    face.extend(openings.iter().map(above));
-    match &hub {
-        // The foot of the hub is a hole in the face that it stands on.
-        Some(hub) => face.push(below(hub)),
-        None => face.extend(bore.iter().map(above)),
+    for hole in &stack.holes {
+        let (from, to) = (number(hole.from), number(hole.to));
+        let heights = [from, to].map(|i| floors.get(i).map(|f| f.z));
+        let [Some(low), Some(high)] = heights else { return Err("a hole ends nowhere".to_owned()) };
+        let edges = wall(e, &hole.ring, [low, high], &mut faces)?;
+        floors[from].loops.push(foot(&edges));
+        floors[to].loops.push(top(&edges));
     }
-    let mut levels = vec![(0.0, false, underside), (stack.height, true, face)];
-    if let Some(hub) = &hub {
-        levels.push((top, true, std::iter::once(hub).chain(&bore).map(above).collect()));
-    }
-    for (z, up, loops) in levels {
+    for Floor { z, up, loops } in floors.into_iter().chain(islands) {
         let bounds: Vec<Id> = loops
             .iter()
             .enumerate()
@@ -89,6 +140,14 @@ pub(super) fn solid(e: &mut Entities, name: &str, stack: &Stack) -> Result<Id, S
     }
     let shell = e.add(format!("CLOSED_SHELL('',({}))", list(&faces)));
     Ok(e.add(format!("MANIFOLD_SOLID_BREP({name},{shell})")))
+}
+
+fn number(level: Level) -> usize {
+    match level {
+        Level::Bottom => 0,
+        Level::Top => 1,
+        Level::Step(i) => i + 2,
+    }
 }
 
 /// The upright faces over a ring between two heights, and the ring's edges.
