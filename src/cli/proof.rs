@@ -66,13 +66,16 @@ pub(crate) fn lines(proof: &MeshingReport) -> Vec<String> {
         .map(|run| {
             let s = &run.summary;
             format!(
-                "simulated {}: swing {:.2} degrees ({:.1} % of a pitch), {:.4} degrees RMS from exact contact, torque up to {:.0} N mm, {:.1} % of the work arrives",
+                "simulated {}: swing {:.2} degrees ({:.1} % of a pitch), {:.4} degrees RMS from exact contact, torque up to {:.0} N mm, {:.1} % of the work arrives{}",
                 title(run),
                 s.swing_angle.to_degrees(),
                 100.0 * s.swing,
                 s.tracking_rms.to_degrees(),
                 s.greatest_torque.map_or(0.0, |w| w.value),
                 100.0 * s.efficiency,
+                run.foretold.map_or(String::new(), |f| {
+                    format!(" ({:.1} % by the contact alone)", 100.0 * f.efficiency)
+                }),
             )
         })
         .collect()
@@ -126,7 +129,13 @@ pub(crate) fn sections(proof: &MeshingReport) -> Vec<Section> {
                 .row("Pairs of teeth that carry load", format!("{:.2}", s.contact_ratio))
                 .noted_row("Longest run without contact", free.0, free.1)
                 .noted_row("Deepest press into the mate", pressed.0, pressed.1)
-                .row("Work that reaches the load", format!("{:.1} %", 100.0 * s.efficiency))
+                .noted_row(
+                    "Work that reaches the load",
+                    format!("{:.1} %", 100.0 * s.efficiency),
+                    run.foretold.map_or(String::new(), |f| {
+                        format!("{:.1} % by the contact alone", 100.0 * f.efficiency)
+                    }),
+                )
         })
         .collect()
 }

@@ -69,6 +69,8 @@ codes! {
     PressureAngle = "pressure-angle",
     /// The backlash reaches `pitches` of a pitch.
     Backlash = "backlash",
+    /// Friction of coefficient `friction` locks the gears, by the contact alone.
+    SelfLocking = "self-locking",
     // Runs.
     /// The motor stalled.
     Jam = "jam",

@@ -181,6 +181,11 @@ impl fmt::Display for Diagnostic {
                 figure("loads"),
                 figure("limit")
             ),
+            Code::SelfLocking => write!(
+                f,
+                "a friction of {:.2} locks the gears at {at:.0} degrees, however strong the motor; grease them, or reduce slope or torque there",
+                figure("friction")
+            ),
             Code::Efficiency => write!(
                 f,
                 "the efficiency is {:.0} % (limit {:.0} %); reduce friction or slope",

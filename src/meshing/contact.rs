@@ -165,6 +165,8 @@ pub struct ContactPose {
 /// Every pose in the order of the driver's angle, and what they amount to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactAnalysis {
+    /// Distance of the axes, mm.
+    pub center_distance: f64,
     /// The poses.
     pub poses: Vec<ContactPose>,
     /// The figures to judge by.
@@ -220,7 +222,7 @@ fn analyse_from(
     poses.extend(known);
     poses.sort_by(|a, b| a.driver_angle.total_cmp(&b.driver_angle));
     let summary = ContactSummary::new(&poses, input.driver_cycle);
-    Ok(ContactAnalysis { poses, summary })
+    Ok(ContactAnalysis { center_distance: input.center_distance, poses, summary })
 }
 
 /// The contact at each of the given driver angles (radians), in their order.

@@ -5,7 +5,8 @@
 //! psi. Driven the other way the pair is mirrored, run, and its angles are given back as negative
 //! numbers.
 
-use super::contact::{ContactError, ContactInput, ContactOptions, poses_at};
+use super::contact::{ContactError, ContactInput, ContactOptions, analyse, poses_at};
+use super::locking::{Foretold, foretell};
 use super::partition::PartitionError;
 use super::recorder::Recorder;
 use super::summary::WorstPlace;
@@ -16,6 +17,9 @@ use crate::gear::Side;
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 use std::f64::consts::TAU;
+
+/// Poses at which friction of a pair that turns backward is looked at: ten a tooth of a common gear.
+const FORETOLD_POSES: usize = policy::CONTACT_POSES_TRIED;
 
 /// How the driver is turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,6 +203,8 @@ pub struct Dynamics {
     pub touches: Vec<Touches>,
     /// Why it ended early, if it did.
     pub stopped: Option<Stop>,
+    /// What the contact alone says of a run with friction, once [`judge`](super::judge) has seen it.
+    pub foretold: Option<Foretold>,
 }
 
 /// The figures of one run.
@@ -259,6 +265,12 @@ pub fn simulate(
         ..*plain
     };
     let mut made = plain.control.run(|| run(&DynamicsInput { contact, ..*input }, options))?;
+    if options.friction > 0.0 {
+        // Other flanks carry than in the contact analysis of a pair, which turns forward.
+        let poses = ContactOptions { poses: FORETOLD_POSES, ..ContactOptions::default() };
+        let analysis = plain.control.run(|| analyse(&contact, &poses))?;
+        made.foretold = foretell(&analysis, options.friction, Side::Driver);
+    }
     made.turn_back();
     Ok(made)
 }
@@ -428,6 +440,9 @@ impl Dynamics {
             step.contact_angle = step.contact_angle.map(|a| -a);
         }
         self.touches.iter_mut().for_each(Touches::turn_back);
+        if let Some(foretold) = &mut self.foretold {
+            foretold.least.driver_angle = -foretold.least.driver_angle;
+        }
         let s = &mut self.summary;
         let places = [
             &mut s.tracking_worst,

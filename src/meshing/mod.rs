@@ -7,6 +7,7 @@ mod csv;
 mod dynamics;
 mod gap;
 mod index;
+mod locking;
 mod partition;
 mod play;
 mod profile;
@@ -31,6 +32,7 @@ pub use dynamics::{
     Step, Stop, simulate,
 };
 pub use gap::{Gap, GapFinder};
+pub use locking::{Foretold, foretell};
 pub use partition::{PartitionError, convex_partition};
 pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};
 pub use touches::Touches;

@@ -99,7 +99,14 @@ impl Recorder {
         }
         contact_angles(input, options, &mut steps)?;
         let summary = summarise(input, options, &steps);
-        Ok(Dynamics { options: *options, steps, summary, touches: self.touches, stopped })
+        Ok(Dynamics {
+            options: *options,
+            steps,
+            summary,
+            touches: self.touches,
+            stopped,
+            foretold: None,
+        })
     }
 }
 

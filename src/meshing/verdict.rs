@@ -4,8 +4,10 @@ use super::contact::{ContactAnalysis, ContactInput};
 use super::dynamics::{
     Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, Stop, simulate,
 };
+use super::locking::{Foretold, foretell};
 use crate::control::StageName;
 use crate::diagnose::{Code, Diagnostic, Limits, Severity, Verdict, once_each};
+use crate::gear::Side;
 use rayon::prelude::*;
 
 /// What is known of a pair's meshing, in one place.
@@ -31,12 +33,19 @@ impl MeshingReport {
 #[must_use]
 pub fn judge(
     contact: ContactAnalysis,
-    runs: Vec<Dynamics>,
+    mut runs: Vec<Dynamics>,
     module: f64,
     driver_teeth: u32,
     limits: &Limits,
 ) -> MeshingReport {
     let mut found = judge_contact(&contact, None, module, driver_teeth, limits);
+    for run in &mut runs {
+        let (forward, friction) =
+            (run.options.direction == Direction::Forward, run.options.friction);
+        if forward && friction > 0.0 {
+            run.foretold = foretell(&contact, friction, Side::Driver);
+        }
+    }
     found.extend(runs.iter().flat_map(|run| judge_run(run, module, limits)));
     MeshingReport { diagnostics: once_each(found), contact, runs }
 }
@@ -126,6 +135,11 @@ pub fn judge_run(run: &Dynamics, module: f64, limits: &Limits) -> Vec<Diagnostic
     if run.stopped.is_none() && !figures.iter().all(|v| v.is_finite()) {
         let at = run.steps.first().map_or(0.0, |step| step.driver_angle);
         found.push(fault(Code::FlungApart, at));
+    }
+    if let Some(foretold) = run.foretold.filter(Foretold::locks) {
+        let mut locks = warning(Code::SelfLocking, foretold.least.driver_angle);
+        locks.stage = StageName::Analysed;
+        found.push(locks.with("friction", foretold.friction));
     }
     match run.stopped {
         Some(Stop::Stalled { driver_angle }) => found.push(fault(Code::Jam, driver_angle)),

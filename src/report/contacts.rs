@@ -81,6 +81,7 @@ mod tests {
             summary: DynamicsSummary::default(),
             touches,
             stopped: None,
+            foretold: None,
         }
     }
 
