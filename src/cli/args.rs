@@ -442,7 +442,7 @@ pub(crate) struct ShapeArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Fitting")]
 pub(crate) struct FitArgs {
-    /// How to look for the axes: every place (global) or the paper's coarse grid (paper)
+    /// How to look for the axes: every place (global), the same for a first answer only (coarse), or the paper's coarse grid (paper)
     #[arg(long, value_enum, default_value_t = SearchArg::Global)]
     pub(crate) search: SearchArg,
     /// Weight of the driver torque against likeness (omega)
@@ -475,6 +475,15 @@ pub(crate) struct FitArgs {
     /// Keep the blend of both laws that the search gives, as the paper does
     #[arg(long, overrides_with = "refine")]
     pub(crate) no_refine: bool,
+    /// How many starts the refinement makes; each step takes about four times as long
+    #[arg(long, default_value = "2", value_name = "1..5", value_parser = clap::value_parser!(u8).range(1..=5))]
+    pub(crate) effort: u8,
+    /// Write the N best different pairs to choose from (alternatives.html, alternatives.json), and no gears
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=12), conflicts_with_all = ["choose", "symmetric"])]
+    pub(crate) alternatives: Option<u8>,
+    /// Make pair I of those that --alternatives shows
+    #[arg(long, value_name = "I", value_parser = clap::value_parser!(u8).range(1..=12), conflicts_with = "symmetric")]
+    pub(crate) choose: Option<u8>,
     /// Weight in E of the area that cannot be seen from the axes
     #[arg(long, default_value = "2", value_name = "WEIGHT", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) star_weight: f64,
@@ -542,6 +551,8 @@ pub(crate) struct SizeArgs {
 pub(crate) enum SearchArg {
     /// Dense search with refinement
     Global,
+    /// Dense search alone: a tenth of a second
+    Coarse,
     /// Recursive 3x3 grid of the paper
     Paper,
 }

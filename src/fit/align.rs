@@ -19,6 +19,7 @@ pub(super) struct Aligner {
 }
 
 /// The short gear's law, transformed.
+#[derive(Debug)]
 pub(super) struct ShortSpectrum {
     pub(super) law: Vec<f64>,
     spectrum: Vec<Complex<f64>>,
@@ -26,6 +27,7 @@ pub(super) struct ShortSpectrum {
 }
 
 /// The long gear's law, transformed, with the scale and the energy of each of its windows.
+#[derive(Debug)]
 pub(super) struct LongSpectrum {
     pub(super) law: Vec<f64>,
     spectrum: Vec<Complex<f64>>,
@@ -41,6 +43,113 @@ impl LongSpectrum {
         let scale = n as f64 * mean / ring.clone().sum::<f64>();
         ring.map(move |v| v * scale)
     }
+}
+
+impl ShortSpectrum {
+    /// The same in single precision.
+    pub(super) fn narrow(&self) -> NarrowShort {
+        NarrowShort { spectrum: narrowed(&self.spectrum), energy: self.energy as f32 }
+    }
+}
+
+impl LongSpectrum {
+    /// The same in single precision.
+    pub(super) fn narrow(&self) -> NarrowLong {
+        let narrow = |values: &[f64]| values.iter().map(|v| *v as f32).collect();
+        NarrowLong {
+            spectrum: narrowed(&self.spectrum),
+            scale: narrow(&self.scale),
+            offset: narrow(&self.offset),
+        }
+    }
+}
+
+fn narrowed(spectrum: &[Complex<f64>]) -> Vec<Complex<f32>> {
+    spectrum.iter().map(|z| Complex::new(z.re as f32, z.im as f32)).collect()
+}
+
+/// A [`ShortSpectrum`] in single precision.
+#[derive(Debug)]
+pub(super) struct NarrowShort {
+    spectrum: Vec<Complex<f32>>,
+    energy: f32,
+}
+
+/// A [`LongSpectrum`] in single precision.
+#[derive(Debug)]
+pub(super) struct NarrowLong {
+    spectrum: Vec<Complex<f32>>,
+    scale: Vec<f32>,
+    offset: Vec<f32>,
+}
+
+/// [`Aligner::best`] in single precision, for very many pairs that are only to be ranked.
+pub(super) struct Ranker {
+    over_turn: f32,
+    inverse: Arc<dyn ComplexToReal<f32>>,
+}
+
+/// Buffers of one thread of a [`Ranker`].
+pub(super) struct NarrowScratch {
+    product: Vec<Complex<f32>>,
+    work: Vec<Complex<f32>>,
+    delta: Vec<f32>,
+}
+
+impl Ranker {
+    /// For `short_len` samples a period and a long gear of `windows` periods.
+    pub(super) fn new(short_len: usize, windows: usize) -> Self {
+        let inverse = RealFftPlanner::new().plan_fft_inverse(short_len * windows);
+        Self { over_turn: TAU as f32 / short_len as f32, inverse }
+    }
+
+    pub(super) fn scratch(&self) -> NarrowScratch {
+        NarrowScratch {
+            product: self.inverse.make_input_vec(),
+            work: self.inverse.make_scratch_vec(),
+            delta: self.inverse.make_output_vec(),
+        }
+    }
+
+    /// Least Delta and its shift; at the shift given, if one is.
+    pub(super) fn best(
+        &self,
+        short: &NarrowShort,
+        long: &NarrowLong,
+        fixed: Option<usize>,
+        scratch: &mut NarrowScratch,
+    ) -> (f32, u32) {
+        let NarrowScratch { product, work, delta } = scratch;
+        for ((p, a), b) in product.iter_mut().zip(&short.spectrum).zip(&long.spectrum) {
+            *p = a * b;
+        }
+        // Only a residue of rounding in the two purely real terms could be refused here; it is harmless.
+        let _ = self.inverse.process_with_scratch(product, delta, work);
+        for ((d, c), e) in delta.iter_mut().zip(&long.scale).zip(&long.offset) {
+            *d = e - c * *d;
+        }
+        let shift = match fixed {
+            Some(shift) => shift % delta.len(),
+            None => {
+                let least = least(delta);
+                delta.iter().position(|d| *d <= least).unwrap_or(0)
+            }
+        };
+        (((delta[shift] + short.energy) * self.over_turn).max(0.0), shift as u32)
+    }
+}
+
+/// The least of some values, several side by side.
+fn least(values: &[f32]) -> f32 {
+    let smaller = |a: f32, b: f32| if b < a { b } else { a };
+    let (blocks, rest) = values.as_chunks::<8>();
+    let mut least = [f32::INFINITY; 8];
+    for block in blocks {
+        for (m, v) in least.iter_mut().zip(block) {
+            *m = smaller(*m, *v);
+        }
+    }
+    least.into_iter().chain(rest.iter().copied()).fold(f32::INFINITY, smaller)
 }
 
 /// Buffers of one thread.
@@ -198,6 +307,12 @@ mod tests {
             let fast = aligner.best(&short, &long, 1, &mut aligner.scratch());
             assert_eq!(fast.shift, slow.0);
             assert!((fast.delta - slow.1).abs() < 1e-12);
+            let ranker = Ranker::new(n, windows);
+            let (narrow, scratch) = (short.narrow(), &mut ranker.scratch());
+            let (delta, shift) = ranker.best(&narrow, &long.narrow(), None, scratch);
+            assert!(shift as usize == slow.0 && (f64::from(delta) - slow.1).abs() < 1e-4);
+            let (delta, _) = ranker.best(&narrow, &long.narrow(), Some(slow.0), scratch);
+            assert!((f64::from(delta) - slow.1).abs() < 1e-4);
             let known = aligner.at(&short, &long, slow.0);
             assert!(known.shift == slow.0 && (known.delta - slow.1).abs() < 1e-12);
             let charged = aligner.long(b.clone(), 1.0, true);

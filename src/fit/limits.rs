@@ -389,7 +389,7 @@ fn blurred(y: &[f64], widths: &[f64]) -> Vec<f64> {
 }
 
 /// min(s psi', most) with the scale s that closes it: the limit of truncating and rescaling in turn (Eq. 16).
-fn bound_torque(law: &[f64], most: f64) -> Vec<f64> {
+pub(super) fn bound_torque(law: &[f64], most: f64) -> Vec<f64> {
     let n = law.len() as f64;
     let total: f64 = law.iter().sum();
     let mut sorted = law.to_vec();

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::global_search::{interior_grid, thinned};
+use super::grid::{GRID_CENTERS, interior_grid, thinned};
 use super::laws::directions;
 use super::limits::{LimitCost, Limits, apply};
 use super::objective::{folding_cost, greatest};
@@ -144,7 +144,7 @@ fn best_axis(task: &Task<'_>) -> Option<Point> {
         samples: policy::MATE_SCAN_SAMPLES.min(task.samples),
         ..*task
     };
-    let (grid, spacing) = interior_grid(&points, policy::GRID_CENTERS);
+    let (grid, spacing) = interior_grid(&points, GRID_CENTERS);
     let middle = geometry::centroid(&points);
     let mut seats: Vec<(f64, Point)> =
         grid.into_par_iter().chain([middle]).map(|p| (scan.cost(p), p)).collect();

@@ -7,7 +7,10 @@
 //! [`Fit`] is for a centre distance of 1.
 
 mod align;
+mod difference;
+mod fitter;
 mod global_search;
+mod grid;
 mod laws;
 mod limits;
 mod lipschitz;
@@ -18,8 +21,12 @@ mod placement;
 mod polish;
 mod ratio;
 mod refine;
+mod scan;
+mod sketch;
 mod symmetric;
 
+pub use difference::difference;
+pub use fitter::Fitter;
 pub use limits::{LimitCost, LimitError, Limits, apply};
 pub use mate::{Mated, mate};
 pub use objective::{Fixed, Objective};
@@ -28,8 +35,7 @@ pub use polish::Refinement;
 pub use ratio::{Ratio, RatioError};
 pub use symmetric::{Symmetric, symmetrised};
 
-use crate::control::{Cancelled, Control, StageName};
-use crate::gear::Side;
+use crate::control::{Cancelled, Control};
 use crate::outline::Outline;
 use crate::pitch::{PolarError, Transmission, TransmissionError};
 use crate::policy;
@@ -39,6 +45,9 @@ use crate::policy;
 pub enum Search {
     /// The paper's recursive 3 x 3 grid: J = 3, depth 3, 128 shifts.
     Paper,
+    /// The dense grid of [`Self::Global`] without continuous refinement: a first answer in a tenth of a second. With
+    /// [`FitOptions::refine`] only its few best are moved on.
+    Coarse,
     /// A dense grid of more than 50,000 pairs at every shift, then continuous refinement; never worse than `Paper`.
     #[default]
     Global,
@@ -66,7 +75,17 @@ pub struct FitOptions {
     /// Whether motion, axes and drawings' places are moved on together after the search, until the pitch curves cover the
     /// drawings best.
     pub refine: bool,
+    /// How many starts a refinement makes, [`EFFORTS`]: each step takes about four times as long as the one before.
+    pub effort: u8,
+    /// Which of [`alternatives`] is taken, counted from 1; none for the best pair, which is found faster.
+    pub choose: Option<usize>,
 }
+
+/// Most different pairs that are looked for.
+pub const MOST_ALTERNATIVES: usize = 12;
+
+/// Least and greatest [`FitOptions::effort`].
+pub const EFFORTS: std::ops::RangeInclusive<u8> = 1..=5;
 
 impl Default for FitOptions {
     fn default() -> Self {
@@ -80,6 +99,8 @@ impl Default for FitOptions {
             symmetric: false,
             star_weight: policy::DEFAULT_STAR_WEIGHT,
             refine: true,
+            effort: 2,
+            choose: None,
         }
     }
 }
@@ -106,6 +127,22 @@ pub enum FitError {
     StarWeight {
         /// Weight asked for.
         weight: f64,
+    },
+    /// No such effort.
+    #[error("an effort of {effort} is out of range; give {} to {}", EFFORTS.start(), EFFORTS.end())]
+    Effort {
+        /// Effort asked for.
+        effort: u8,
+    },
+    /// No such alternative.
+    #[error(
+        "there is no pair {choose} to choose: these shapes make {found} different pairs; give 1 to {found}"
+    )]
+    NoSuchAlternative {
+        /// Number asked for.
+        choose: usize,
+        /// Different pairs found.
+        found: usize,
     },
     /// Too few or too many samples.
     #[error("{samples} samples of the law are out of range; give {least} to {most}")]
@@ -190,76 +227,26 @@ pub fn fit(
     options: &FitOptions,
     control: &Control,
 ) -> Result<Fit, FitError> {
-    check(ratio, options)?;
-    control.progress(StageName::Wanted, 0.0);
-    let made = control.run(|| fitted(driver, follower, ratio, options, control));
-    // Whatever a search says that was given up half way is not worth hearing.
-    control.check()?;
-    control.progress(StageName::Wanted, 1.0);
-    made
+    Fitter::default().fit(driver, follower, ratio, options, control)
 }
 
-fn fitted(
+/// The best `count` *different* pairs that two shapes make, best first: by J of the refinement, or by E without one.
+///
+/// The first is about what [`fit`] gives. Each differs from all before it by more than a neighbour would ([`difference`] of 0.08 at
+/// least); where the shapes do not make so many different pairs there are fewer. At most [`MOST_ALTERNATIVES`] are looked for,
+/// always in the same order: [`FitOptions::choose`] takes one by its number.
+///
+/// # Errors
+/// See [`FitError`].
+pub fn alternatives(
     driver: &Outline,
     follower: &Outline,
     ratio: Ratio,
     options: &FitOptions,
+    count: usize,
     control: &Control,
-) -> Result<Fit, FitError> {
-    if !ratio.is_whole() {
-        return Err(FitError::Rational { ratio });
-    }
-    if options.symmetric {
-        let need = if ratio != Ratio::ONE {
-            Some("at a ratio of 1")
-        } else if driver != follower {
-            Some("if both are made from one shape")
-        } else if options.fixed.orientation.is_some() {
-            Some("in a pose that is found, not fixed")
-        } else {
-            None
-        };
-        return match need {
-            Some(need) => Err(FitError::Symmetric { need }),
-            None => symmetric::fit_symmetric(driver, options, control),
-        };
-    }
-    let shapes = (driver.points(), follower.points());
-    let problem = objective::Problem::new(
-        shapes,
-        ratio,
-        &options.limits,
-        (options.weight, options.balance, options.star_weight),
-        options.samples,
-    )
-    .with_fixed(options.fixed)
-    .with_control(control);
-    for (side, axis) in
-        [(Side::Driver, options.fixed.driver_axis), (Side::Follower, options.fixed.follower_axis)]
-    {
-        if let Some(axis) = axis {
-            problem.law(side, axis)?;
-        }
-    }
-    // Impossible limits should be said at once, not found in every candidate.
-    let even = [1.0; policy::MIN_TRANSMISSION_SAMPLES];
-    apply(&even, problem.folds(), &options.limits)?;
-    let (found, pairs_scored) = match options.search {
-        Search::Paper => paper_search::search(&problem),
-        Search::Global => global_search::search(&problem),
-    };
-    control.check()?;
-    let winner = found.first().ok_or(FitError::NoCenter)?;
-    let fit = placement::place(&problem, winner, pairs_scored)?;
-    // What is fixed must stay where it was put.
-    if !options.refine || options.fixed != Fixed::default() {
-        return Ok(fit);
-    }
-    // Likeness is not bought with torque: psi' stays below what the search found.
-    let most = options.limits.max_derivative.unwrap_or(f64::INFINITY);
-    let most = most.min(fit.transmission.max_derivative());
-    let held = Limits { max_derivative: Some(most), ..options.limits };
-    Ok(polish::polished(&problem.with_limits(&held), fit, &found))
+) -> Result<Vec<Fit>, FitError> {
+    Fitter::default().alternatives(driver, follower, ratio, options, count, control)
 }
 
 fn check(ratio: Ratio, options: &FitOptions) -> Result<(), FitError> {
@@ -272,6 +259,9 @@ fn check(ratio: Ratio, options: &FitOptions) -> Result<(), FitError> {
     }
     if !options.fixed.is_finite() {
         return Err(FitError::FixedNotFinite);
+    }
+    if !EFFORTS.contains(&options.effort) {
+        return Err(FitError::Effort { effort: options.effort });
     }
     let weight = options.star_weight;
     if !(weight >= 0.0 && weight.is_finite()) {

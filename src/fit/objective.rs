@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::laws::{Law, directions};
 use super::limits::{LimitCost, Limits, apply};
+use super::sketch::{Sketch, Sketched};
 use super::{FitError, Ratio};
 use crate::control::Control;
 use crate::gear::Side;
@@ -85,6 +86,16 @@ pub struct Objective {
     /// What the parts that cannot be seen from the axes count: the star weight times the mean of both shares of area that
     /// rays from the axes fill in, weighted by the balance. 0 for shapes that are star-shaped about their axes.
     pub lost_cost: f64,
+}
+
+/// A candidate's law before limits.
+struct Blended {
+    law: Vec<f64>,
+    delta: f64,
+    folding: f64,
+    lost: f64,
+    lost_area: (f64, f64),
+    follower_law: Law,
 }
 
 /// A candidate worked out.
@@ -205,6 +216,14 @@ impl<'a> Problem<'a> {
         if self.ratio.driver_fold() == 1 { Side::Driver } else { Side::Follower }
     }
 
+    /// The short gear and the long one.
+    pub(super) fn sides(&self) -> (Side, Side) {
+        match self.short_side() {
+            Side::Driver => (Side::Driver, Side::Follower),
+            Side::Follower => (Side::Follower, Side::Driver),
+        }
+    }
+
     /// Driver angle of one sample step.
     pub(super) fn step(&self) -> f64 {
         TAU / f64::from(self.ratio.driver_fold()) / self.samples as f64
@@ -243,6 +262,32 @@ impl<'a> Problem<'a> {
 
     /// Works a candidate out.
     pub(super) fn score(&self, candidate: &Candidate) -> Result<Scored, FitError> {
+        let blended = self.blended(candidate)?;
+        let (limited, cost) = apply(&blended.law, self.folds(), self.limits)?;
+        Ok(Scored {
+            objective: self.objective(blended.delta, (blended.folding, blended.lost), &cost),
+            blend: blended.law,
+            limited,
+            cost,
+            lost_area: blended.lost_area,
+            follower_law: blended.follower_law,
+        })
+    }
+
+    /// About E of a candidate, the limits' cost to first order; infinite for one that makes no pair.
+    pub(super) fn sketched(&self, candidate: &Candidate) -> f64 {
+        if self.control.is_cancelled() {
+            return f64::INFINITY;
+        }
+        let Ok(blended) = self.blended(candidate) else {
+            return f64::INFINITY;
+        };
+        let Sketched { shape, torque } =
+            Sketch::new(self.folds(), self.limits, self.samples).of(&blended.law);
+        blended.delta + blended.folding + blended.lost + shape + self.weight * torque
+    }
+
+    fn blended(&self, candidate: &Candidate) -> Result<Blended, FitError> {
         let driver = self.law(Side::Driver, candidate.driver)?;
         let follower = self.law(Side::Follower, candidate.follower)?;
         let n = self.samples;
@@ -260,14 +305,13 @@ impl<'a> Problem<'a> {
         let delta =
             short.iter().zip(&window).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() * TAU / n as f64;
         let blend = self.blend(&short, window.into_iter());
-        let (limited, cost) = apply(&blend, self.folds(), self.limits)?;
         let lost = self.lost_cost(Side::Driver, driver.lost_area)
             + self.lost_cost(Side::Follower, follower.lost_area);
-        Ok(Scored {
-            objective: self.objective(delta, (folding, lost), &cost),
-            blend,
-            limited,
-            cost,
+        Ok(Blended {
+            law: blend,
+            delta,
+            folding,
+            lost,
             lost_area: (driver.lost_area, follower.lost_area),
             follower_law: follower,
         })

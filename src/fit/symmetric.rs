@@ -9,12 +9,12 @@ use std::f64::consts::{PI, TAU};
 
 use rayon::prelude::*;
 
-use super::global_search::{interior_grid, thinned};
+use super::grid::{GRID_CENTERS, interior_grid, thinned};
 use super::laws::directions;
 use super::limits::{LimitCost, apply};
 use super::objective::Objective;
 use super::placement::{FittedGear, Similarity};
-use super::{Fit, FitError, FitOptions};
+use super::{Fit, FitError, FitOptions, Ratio};
 use crate::control::{Control, StageName};
 use crate::geometry::{self, Point};
 use crate::outline::Outline;
@@ -244,8 +244,30 @@ fn seat(
 /// Fits a shape to itself so that both gears have the same pitch curve.
 ///
 /// # Errors
-/// See [`FitError`].
-pub(super) fn fit_symmetric(
+/// [`FitError::Symmetric`] for two shapes, another ratio or a fixed pose; else see [`FitError`].
+pub(super) fn fit_to_itself(
+    driver: &Outline,
+    follower: &Outline,
+    ratio: Ratio,
+    options: &FitOptions,
+    control: &Control,
+) -> Result<Fit, FitError> {
+    let need = if ratio != Ratio::ONE {
+        Some("at a ratio of 1")
+    } else if driver != follower {
+        Some("if both are made from one shape")
+    } else if options.fixed.orientation.is_some() {
+        Some("in a pose that is found, not fixed")
+    } else {
+        None
+    };
+    match need {
+        Some(need) => Err(FitError::Symmetric { need }),
+        None => fit_symmetric(driver, options, control),
+    }
+}
+
+fn fit_symmetric(
     shape: &Outline,
     options: &FitOptions,
     control: &Control,
@@ -264,7 +286,7 @@ pub(super) fn fit_symmetric(
                 let q = by_sum(&law, policy::MATE_SCAN_SAMPLES);
                 Some(best_mirror(&q).1 + options.weight * law.max_derivative())
             };
-            let (grid, _) = interior_grid(&thin, policy::GRID_CENTERS);
+            let (grid, _) = interior_grid(&thin, GRID_CENTERS);
             let scored = grid.len() + 1;
             let mut seats: Vec<(f64, Point)> = grid
                 .into_par_iter()
@@ -329,7 +351,7 @@ pub(super) fn fit_symmetric(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::{Ratio, fit};
+    use crate::fit::fit;
 
     fn egg() -> Outline {
         let r =

@@ -189,3 +189,90 @@ fn meaningless_options_are_refused() {
         FitError::Limit(LimitError::TorqueBelowMean { .. })
     ));
 }
+
+#[test]
+fn alternatives_differ_and_are_ranked_and_chosen() {
+    let lobed = polar_shape(240, |t| 1.0 + 0.3 * (3.0 * t).cos() + 0.1 * t.sin());
+    for refine in [true, false] {
+        let options = FitOptions { refine, ..quick(Search::Global) };
+        let found =
+            alternatives(&egg(), &lobed, Ratio::ONE, &options, 5, Control::unwatched()).unwrap();
+        assert!(found.len() > 1, "{}", found.len());
+        let value = |f: &Fit| f.refinement.map_or(f.objective.total, |r| r.after);
+        assert!(found.is_sorted_by(|a, b| value(a) <= value(b)));
+        for (i, a) in found.iter().enumerate() {
+            assert!(found[..i].iter().all(|b| difference(a, b) >= 0.08));
+            assert!(difference(a, a) < 1e-12);
+        }
+        let choose = Some(2);
+        let second = fit(
+            &egg(),
+            &lobed,
+            Ratio::ONE,
+            &FitOptions { choose, ..options.clone() },
+            Control::unwatched(),
+        );
+        assert_eq!(value(&second.unwrap()), value(&found[1]));
+        let choose = Some(999);
+        let none = fit(
+            &egg(),
+            &lobed,
+            Ratio::ONE,
+            &FitOptions { choose, ..options },
+            Control::unwatched(),
+        );
+        assert!(matches!(none, Err(FitError::NoSuchAlternative { choose: 999, .. })));
+    }
+    // A circle about its centre is the only gear that a circle makes well; about others the gears differ.
+    let options = quick(Search::Coarse);
+    let circles =
+        alternatives(&circle(), &circle(), Ratio::ONE, &options, 3, Control::unwatched()).unwrap();
+    assert!(circles[0].objective.total < 0.21);
+}
+
+#[test]
+fn a_fitter_that_knows_the_shapes_gives_the_same() {
+    let mut fitter = Fitter::default();
+    for (balance, search) in [(0.5, Search::Coarse), (0.2, Search::Global), (0.8, Search::Global)] {
+        let options = FitOptions { balance, ..quick(search) };
+        let kept =
+            fitter.fit(&egg(), &square(), Ratio::ONE, &options, Control::unwatched()).unwrap();
+        let fresh = fit(&egg(), &square(), Ratio::ONE, &options, Control::unwatched()).unwrap();
+        assert_eq!(kept.objective, fresh.objective);
+        assert_eq!(kept.driver, fresh.driver);
+    }
+    // Another shape is not mistaken for the one that is known.
+    let options = quick(Search::Coarse);
+    let other = fitter.fit(&egg(), &circle(), Ratio::ONE, &options, Control::unwatched()).unwrap();
+    let fresh = fit(&egg(), &circle(), Ratio::ONE, &options, Control::unwatched()).unwrap();
+    assert_eq!(other.objective, fresh.objective);
+}
+
+#[test]
+fn an_axis_that_is_fixed_stays_when_the_rest_is_refined() {
+    let at = Point::new(0.1, -0.05);
+    for search in [Search::Coarse, Search::Global] {
+        let fixed = Fixed { driver_axis: Some(at), ..Fixed::default() };
+        let with = |refine| FitOptions { fixed, refine, ..quick(search) };
+        let plain = fit(&egg(), &square(), Ratio::ONE, &with(false), Control::unwatched()).unwrap();
+        let refined =
+            fit(&egg(), &square(), Ratio::ONE, &with(true), Control::unwatched()).unwrap();
+        assert_eq!(refined.driver.center_in_input, at);
+        let change = refined.refinement.unwrap();
+        assert!(change.after < change.before);
+        assert!(refined.driver.iou + refined.follower.iou > plain.driver.iou + plain.follower.iou);
+    }
+}
+
+#[test]
+fn a_coarse_search_is_near_the_full_one() {
+    let (coarse, full) = [Search::Coarse, Search::Global]
+        .map(|s| {
+            fit(&egg(), &square(), Ratio::ONE, &quick(s), Control::unwatched())
+                .unwrap()
+                .objective
+                .total
+        })
+        .into();
+    assert!(full <= coarse && coarse < 1.1 * full, "{coarse} {full}");
+}

@@ -69,40 +69,6 @@ pub const PAPER_KEPT: usize = 3;
 pub const PAPER_DEPTH: usize = 3;
 /// The paper's M: shifts tried over the long gear's turn.
 pub const PAPER_SHIFTS: usize = 128;
-/// Centres of the dense grid in each shape: 225 squared is above 50,000 pairs.
-pub const GRID_CENTERS: usize = 225;
-/// Tries at a spacing that puts enough grid points inside a thin shape, and the factor between tries.
-pub const GRID_ATTEMPTS: usize = 40;
-/// See [`GRID_ATTEMPTS`].
-pub const GRID_SHRINK: f64 = 0.97;
-/// Samples over the long gear's turn in the dense scan: enough to rank centres, not to judge them.
-pub const SCAN_SAMPLES: usize = 512;
-/// Least samples of one period in the scan of a pair with a high ratio.
-pub const SCAN_SAMPLES_LEAST: usize = 64;
-/// Vertices of an outline in scan and first refinement; finer detail does not move a centre.
-pub const SCAN_VERTICES: usize = 512;
-/// Pairs kept for each centre of the short gear in the scan.
-pub const KEPT_PER_ROW: usize = 24;
-/// Pairs of the scan that are worked out with the limits' cost.
-pub const LIMITED_PAIRS: usize = 2048;
-/// Distinct candidates that leave the scan.
-pub const KEPT_CANDIDATES: usize = 20;
-/// Candidates are the same when both centres lie closer than this many grid steps.
-pub const DISTINCT_STEPS: f64 = 2.1;
-/// Candidates refined continuously.
-pub const REFINED_STARTS: usize = 6;
-/// First step of the shift in a refinement, samples of the scan.
-pub const REFINE_SHIFT: f64 = 2.0;
-/// Evaluations of one refinement at half resolution.
-pub const REFINE_EVALUATIONS: usize = 120;
-/// Refined candidates that are polished at full resolution.
-pub const POLISHED: usize = 2;
-/// First steps of the polish over those of the refinement.
-pub const POLISH_SHRINK: f64 = 0.1;
-/// Evaluations of one polish.
-pub const POLISH_EVALUATIONS: usize = 80;
-/// Most cells of the grid that looks for centres in a thin shape.
-pub const GRID_CELLS_MOST: f64 = 100_000.0;
 /// omega of the paper.
 pub const DEFAULT_TORQUE_WEIGHT: f64 = 0.2;
 /// N of the paper.

@@ -4,6 +4,7 @@
 //! data into a `String`; writing it to a file is the caller's affair. No
 //! function panics: values that are not finite are left out of the drawing.
 
+mod alternatives;
 mod contacts;
 mod data;
 mod page;
@@ -13,6 +14,7 @@ mod sheet;
 mod text;
 mod thin;
 
+pub use alternatives::Alternatives;
 pub use contacts::contact_frames;
 pub use data::{
     ContactFrame, Limit, Note, NoteKind, Plot, ReportData, Row, Section, Series, Touch,

@@ -17,8 +17,17 @@ use super::law::{Basis, Sensitivity, Series};
 use crate::control::Control;
 use crate::fit::Ratio;
 use crate::geometry::{Point, Vector};
-use crate::policy;
 
+/// Sharpness of the soft maximum of psi', over the mean of psi'.
+const SOFT_MAXIMUM: f64 = 30.0;
+/// Weight of the squares of what exceeds the bounds on psi' (over its mean) and on the tangent of the lean.
+const PENALTY: f64 = 4.0;
+/// Weight of the square of ln psi's bend: between equal likenesses the smoother law is taken.
+const STIFFNESS: f64 = 1e-7;
+/// Steps that L-BFGS remembers.
+const MEMORY: usize = 12;
+/// Change of value and length of the gradient at which L-BFGS stops.
+const TOLERANCE: f64 = 1e-6;
 /// Numbers before the coefficients of the law: centre (x, y) and angle of the driver's drawing, then the follower's.
 pub(super) const PLACES: usize = 6;
 
@@ -34,6 +43,8 @@ pub(super) struct Wish {
     pub(super) most: f64,
     /// Greatest tangent of the lean allowed.
     pub(super) steepest: f64,
+    /// Whether the driver's and the follower's axis stay where they are.
+    pub(super) held: [bool; 2],
 }
 
 impl Wish {
@@ -108,9 +119,12 @@ impl<'a> Cost<'a> {
         value += self.torque(&series, &mut by);
         value += self.bounds(&series, &mut by);
         self.basis.pull_back(&series, &by, mean, period, &mut gradient[PLACES..]);
+        for gear in [0, 1].into_iter().filter(|gear| wish.held[*gear]) {
+            gradient[3 * gear..][..2].fill(0.0);
+        }
         let waves = self.basis.waves;
         for (k, c) in x[PLACES..].iter().enumerate() {
-            let stiffness = policy::POLISH_STIFFNESS * ((k % waves + 1) as f64).powi(4);
+            let stiffness = STIFFNESS * ((k % waves + 1) as f64).powi(4);
             value += 0.5 * stiffness * c * c;
             gradient[PLACES + k] += stiffness * c;
         }
@@ -122,7 +136,7 @@ impl<'a> Cost<'a> {
         if self.wish.torque == 0.0 {
             return 0.0;
         }
-        let sharpness = policy::POLISH_SOFT_MAXIMUM / self.wish.mean();
+        let sharpness = SOFT_MAXIMUM / self.wish.mean();
         let most = series.speed.iter().copied().fold(0.0, f64::max);
         let shares: Vec<f64> =
             series.speed.iter().map(|p| (sharpness * (p - most)).exp()).collect();
@@ -135,7 +149,7 @@ impl<'a> Cost<'a> {
 
     fn bounds(&self, series: &Series, by: &mut Sensitivity) -> f64 {
         let n = self.basis.places as f64;
-        let weight = policy::POLISH_PENALTY / n;
+        let weight = PENALTY / n;
         let mut value = 0.0;
         for i in 0..self.basis.places {
             let (p, v) = (series.speed[i], series.slope[i]);
@@ -161,9 +175,9 @@ impl<'a> Cost<'a> {
         let start = start.to_vec();
         let value = self.both(&start).0;
         let search = MoreThuenteLineSearch::new();
-        let solver = LBFGS::new(search, policy::POLISH_MEMORY)
-            .with_tolerance_grad(policy::POLISH_TOLERANCE)
-            .and_then(|s| s.with_tolerance_cost(policy::POLISH_TOLERANCE));
+        let solver = LBFGS::new(search, MEMORY)
+            .with_tolerance_grad(TOLERANCE)
+            .and_then(|s| s.with_tolerance_cost(TOLERANCE));
         let Ok(solver) = solver else {
             return (start, value);
         };

@@ -4,7 +4,15 @@
 //! continuous and holds for any drawing, star-shaped about the axis or not.
 
 use crate::geometry::{self, Point};
-use crate::policy;
+
+/// Cells of the field of a drawing along the longer side of its box: a cell is a quarter of a tooth of a common gear.
+const CELLS: usize = 160;
+/// Empty cells round the drawing: the widest blur reaches no further.
+const MARGIN: usize = 24;
+/// Lines of a cell on which the drawing's cover is measured; along a line it is exact.
+const LINES: usize = 4;
+/// Standard deviations at which a blur is cut off: what is left out is below 1e-4.
+const BLUR_REACH: f64 = 3.7;
 
 /// The indicator of a polygon of area 1, blurred, on a square grid of spline coefficients.
 #[derive(Clone, Debug)]
@@ -28,16 +36,16 @@ pub(super) struct Raster {
 }
 
 impl Raster {
-    /// Draws a polygon; the longer side of its box takes [`policy::FIELD_CELLS`] cells.
+    /// Draws a polygon; the longer side of its box takes [`CELLS`] cells.
     pub(super) fn new(points: &[Point]) -> Self {
         let (low, high) = geometry::bounds(points);
         let size = high - low;
-        let cell = size.max() / policy::FIELD_CELLS as f64;
-        let margin = policy::FIELD_MARGIN;
+        let cell = size.max() / CELLS as f64;
+        let margin = MARGIN;
         let count = |length: f64| (length / cell).ceil() as usize + 2 * margin;
         let (columns, rows) = (count(size.x), count(size.y));
         let low = Point::new(low.x - margin as f64 * cell, low.y - margin as f64 * cell);
-        let lines = policy::FIELD_LINES;
+        let lines = LINES;
         let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); rows * lines];
         let line = cell / lines as f64;
         for (a, b) in points.iter().zip(points.iter().cycle().skip(1)) {
@@ -70,7 +78,7 @@ impl Raster {
         let (columns, rows) = (self.columns, self.rows);
         let mut values = self.covered.clone();
         if blur > 0.0 {
-            let reach = (policy::BLUR_REACH * blur).ceil() as usize;
+            let reach = (BLUR_REACH * blur).ceil() as usize;
             let kernel: Vec<f64> =
                 (0..=reach).map(|k| (-0.5 * (k as f64 / blur).powi(2)).exp()).collect();
             values = blurred(&values, columns, rows, &kernel);

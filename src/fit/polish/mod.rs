@@ -12,7 +12,10 @@
 mod cost;
 mod field;
 mod law;
+mod plan;
 mod warp;
+
+pub(super) use plan::Plan;
 
 use rayon::prelude::*;
 
@@ -20,7 +23,7 @@ use self::cost::{Cost, PLACES, Wish};
 use self::field::{Field, Raster};
 use self::law::Basis;
 use super::align::Aligner;
-use super::global_search::{interior_grid, thinned};
+use super::grid::{interior_grid, thinned};
 use super::limits::{LimitCost, apply};
 use super::objective::{Candidate, Objective, Problem};
 use super::placement::{self, FittedGear, Similarity};
@@ -30,6 +33,20 @@ use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
+
+/// Weight of omega max psi' beside the share of area that differs: kappa. At 0.25 likeness hardly gains and torque falls by a
+/// third; at 0.04 the torque stays about what it was.
+const TORQUE: f64 = 0.04;
+/// Waves of a start's law.
+const START_WAVES: usize = 8;
+/// Samples of the law of a start: it keeps only a few waves.
+const START_SAMPLES: usize = 128;
+/// Ends nearer to each other than this (lengths over the drawing's, radians, shares) are one.
+const TWINS: f64 = 0.02;
+/// Centres of the search that join those spread for warped alignments.
+const FOUND_CENTERS: usize = 4;
+/// A found centre nearer than this to one of those spread, over their spacing, adds nothing.
+const CENTERS_APART: f64 = 0.3;
 
 /// What a refinement changed; the measure is `t (1 - IoU_D) + (1 - t) (1 - IoU_F) + kappa omega max psi'`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,21 +92,28 @@ struct Path {
     is_warped: bool,
 }
 
-/// The refined pair, or the given one where nothing better is found.
-pub(super) fn polished(problem: &Problem<'_>, found: Fit, candidates: &[Candidate]) -> Fit {
+/// Refined pairs, the best first; the given one leads where nothing better is found.
+pub(super) fn polished(
+    problem: &Problem<'_>,
+    found: Fit,
+    candidates: &[Candidate],
+    plan: &Plan,
+) -> Vec<Fit> {
     let drawings = [Drawing::new(problem.driver), Drawing::new(problem.follower)];
     let wish = Wish {
         ratio: problem.ratio,
         balance: problem.balance,
-        torque: policy::POLISH_TORQUE * problem.weight,
+        torque: TORQUE * problem.weight,
         most: problem.limits.max_derivative.unwrap_or(f64::INFINITY),
         steepest: problem.limits.max_lean.tan(),
+        held: [Side::Driver, Side::Follower].map(|side| problem.fixed.axis(side).is_some()),
     };
     let rasters = [0, 1].map(|i| Raster::new(&drawings[i].points));
-    let mut paths = starts(problem, &wish, &drawings, candidates);
+    let candidates = &candidates[..candidates.len().min(plan.candidates)];
+    let mut paths = starts(problem, &wish, &drawings, candidates, plan);
     let count = paths.len();
     let folds = problem.windows();
-    for (index, stage) in policy::POLISH_STAGES.iter().enumerate() {
+    for (index, stage) in plan.stages.iter().enumerate() {
         let places = (stage.places / folds).max(4 * stage.waves).max(policy::FIT_SAMPLES_LEAST);
         let basis = Basis::new(places, stage.waves);
         let fields: [Field; 2] = [0, 1].map(|i| rasters[i].field(stage.blur));
@@ -106,20 +130,24 @@ pub(super) fn polished(problem: &Problem<'_>, found: Fit, candidates: &[Candidat
             .collect();
         paths.sort_by(|a, b| a.value.total_cmp(&b.value));
         paths = distinct(paths, stage.kept);
-        let done = 0.6 + 0.4 * (index + 1) as f64 / policy::POLISH_STAGES.len() as f64;
+        let done = 0.6 + 0.4 * (index + 1) as f64 / plan.stages.len() as f64;
         problem.control.progress(StageName::Wanted, done);
     }
     let before = measure(&wish, &found);
-    let ends: Vec<(f64, bool, Fit)> = paths
+    let mut ends: Vec<(f64, Fit)> = paths
         .par_iter()
         .filter_map(|path| {
             let fit = delivered(problem, &wish, &drawings, path, &found).ok()?;
-            Some((measure(&wish, &fit), path.is_warped, fit))
+            let after = measure(&wish, &fit);
+            let is_warped = path.is_warped;
+            let refinement = Some(Refinement { before, after, starts: count, is_warped });
+            Some((after, Fit { refinement, ..fit }))
         })
         .collect();
-    let best = ends.into_iter().filter(|e| e.0 < before).min_by(|a, b| a.0.total_cmp(&b.0));
-    let (after, is_warped, fit) = best.unwrap_or((before, false, found));
-    Fit { refinement: Some(Refinement { before, after, starts: count, is_warped }), ..fit }
+    let unchanged = Refinement { before, after: before, starts: count, is_warped: false };
+    ends.push((before, Fit { refinement: Some(unchanged), ..found }));
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ends.into_iter().map(|e| e.1).collect()
 }
 
 /// The best few that differ.
@@ -128,7 +156,7 @@ fn distinct(paths: Vec<Path>, kept: usize) -> Vec<Path> {
     for path in paths {
         let twin = out.iter().any(|o| {
             let apart = o.x.iter().zip(&path.x).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-            apart < policy::POLISH_TWINS
+            apart < TWINS
         });
         if path.value.is_finite() && !twin {
             out.push(path);
@@ -145,10 +173,11 @@ fn starts(
     wish: &Wish,
     drawings: &[Drawing; 2],
     candidates: &[Candidate],
+    plan: &Plan,
 ) -> Vec<Path> {
-    let waves = policy::POLISH_START_WAVES;
+    let waves = START_WAVES;
     let thin = (thinned(problem.driver), thinned(problem.follower));
-    let rough = problem.resampled((&thin.0, &thin.1), policy::POLISH_START_SAMPLES);
+    let rough = problem.resampled((&thin.0, &thin.1), START_SAMPLES);
     let placed = |centers: (Point, Point), angle: f64, law: &[f64], is_warped: bool| {
         let (d, f) = (drawings[0].inward(centers.0), drawings[1].inward(centers.1));
         let mut x = vec![d.x, d.y, 0.0, f.x, f.y, angle];
@@ -163,20 +192,32 @@ fn starts(
             Some(placed((c.driver, c.follower), angle, motion.samples(), false))
         })
         .collect();
-    let centers = [
-        centers(&thin.0, candidates.iter().map(|c| c.driver)),
-        centers(&thin.1, candidates.iter().map(|c| c.follower)),
-    ];
-    let warped = warp::alignments(&rough, wish, [&centers[0], &centers[1]]);
-    paths.extend(warped.iter().map(|a| placed((a.driver, a.follower), a.angle, &a.law, true)));
+    if plan.centers > 0 {
+        let centers = [
+            centers(&thin.0, wish.held[0], plan, candidates.iter().map(|c| c.driver)),
+            centers(&thin.1, wish.held[1], plan, candidates.iter().map(|c| c.follower)),
+        ];
+        let warped =
+            warp::alignments(&rough, wish, [&centers[0], &centers[1]], plan.stride, plan.warps);
+        paths.extend(warped.iter().map(|a| placed((a.driver, a.follower), a.angle, &a.law, true)));
+    }
     paths
 }
 
-/// A few centres spread over a drawing and the first few of the search, for warped alignments.
-fn centers(points: &[Point], found: impl Iterator<Item = Point>) -> Vec<Point> {
-    let (mut grid, spacing) = interior_grid(points, policy::WARP_CENTERS);
-    for center in found.take(policy::WARP_CANDIDATES) {
-        if grid.iter().all(|g| (g - center).norm() > policy::WARP_APART * spacing) {
+/// A few centres spread over a drawing and the first few of the search, for warped alignments; that of the search alone where it is
+/// held.
+fn centers(
+    points: &[Point],
+    held: bool,
+    plan: &Plan,
+    found: impl Iterator<Item = Point>,
+) -> Vec<Point> {
+    if held {
+        return found.take(1).collect();
+    }
+    let (mut grid, spacing) = interior_grid(points, plan.centers);
+    for center in found.take(FOUND_CENTERS) {
+        if grid.iter().all(|g| (g - center).norm() > CENTERS_APART * spacing) {
             grid.push(center);
         }
     }
@@ -214,7 +255,8 @@ fn delivered(
         centrodes.follower_curve(count * folds.1 as usize),
     ];
     let fitted = |i: usize, side: Side, angle: f64| -> Result<FittedGear, FitError> {
-        let center = drawings[i].outward(Point::new(x[3 * i], x[3 * i + 1]));
+        let moved = drawings[i].outward(Point::new(x[3 * i], x[3 * i + 1]));
+        let center = problem.fixed.axis(side).unwrap_or(moved);
         let lost_area = problem.law(side, center)?.lost_area;
         let scale = geometry::area(&curves[i]).sqrt() / drawings[i].size;
         let placement = Similarity { center, angle, scale };

@@ -50,6 +50,7 @@ fn the_gradient_is_that_of_the_value() {
             torque: 0.05,
             most: 1.1,
             steepest: 0.3,
+            held: [false; 2],
         };
         let drawings = [Drawing::new(egg().points()), Drawing::new(bean().points())];
         let fields = [0, 1].map(|i| Raster::new(&drawings[i].points).field(2.0));

@@ -14,7 +14,13 @@ use crate::fit::laws::directions;
 use crate::fit::objective::Problem;
 use crate::geometry::Point;
 use crate::pitch::{PolarCurve, center_distance};
-use crate::policy;
+
+/// Cells of each angle's period; a step spans up to five.
+const CELLS: usize = 48;
+/// A path strays from the even motion by a period over this at most.
+const BAND: usize = 3;
+/// Passes of smoothing over a path's steps.
+const SMOOTHING: usize = 2;
 
 /// Steps of a path: cells of the driver's and of the follower's angle, without common divisor.
 const STEPS: [(usize, usize); 15] = [
@@ -45,22 +51,24 @@ pub(super) struct Alignment {
     /// psi' at even driver angles of one period.
     pub(super) law: Vec<f64>,
     /// Share of area missed, in the balance asked for.
-    cost: f64,
+    cost: f32,
 }
 
-/// What each kind of step costs one gear about one centre, by where its middle lies (in half cells).
+/// What each kind of step costs one gear about one centre, by the cell where it *ends*. The follower's go twice round.
 struct Seat {
     center: Point,
-    costs: Vec<Vec<f64>>,
+    costs: Vec<Vec<f32>>,
 }
 
-/// The best motions over all pairs of the centres given, at most [`policy::WARP_KEPT`].
+/// The best motions over all pairs of the centres given, at most `kept`; paths start from every `stride`-th follower cell.
 pub(super) fn alignments(
     problem: &Problem<'_>,
     wish: &Wish,
     centers: [&[Point]; 2],
+    stride: usize,
+    kept: usize,
 ) -> Vec<Alignment> {
-    let n = policy::WARP_CELLS;
+    let n = CELLS;
     let steps: Vec<(usize, usize)> = STEPS
         .into_iter()
         .filter(|(di, dj)| di == dj || wish.mean() * *dj as f64 / *di as f64 <= wish.most)
@@ -76,23 +84,25 @@ pub(super) fn alignments(
     let window = TAU / f64::from(wish.ratio.follower_fold());
     let mut found: Vec<Alignment> = pairs
         .par_iter()
-        .filter_map(|(driver, follower)| {
-            let best = (0..n)
-                .step_by(policy::WARP_STRIDE)
-                .take_while(|_| !problem.control.is_cancelled())
-                .filter_map(|from| {
-                    let (cost, law) = path(&steps, &driver.costs, &follower.costs, n, from)?;
-                    Some((cost, from, law))
-                })
-                .min_by(|a, b| a.0.total_cmp(&b.0))?;
-            let (cost, from, cells) = best;
+        .map_init(Vec::new, |table, (driver, follower)| {
+            let mut best: Option<(f32, usize)> = None;
+            for from in (0..n).step_by(stride).take_while(|_| !problem.control.is_cancelled()) {
+                let cost = fill(table, &steps, &driver.costs, &follower.costs, from);
+                if cost < best.map_or(f32::INFINITY, |b| b.0) {
+                    best = Some((cost, from));
+                }
+            }
+            let (cost, from) = best?;
+            fill(table, &steps, &driver.costs, &follower.costs, from);
+            let cells = walked_back(table, &steps, &driver.costs, &follower.costs, from)?;
             let law = cells.iter().map(|c| c * wish.mean()).collect();
             let angle = PI - window * from as f64 / n as f64;
             Some(Alignment { driver: driver.center, follower: follower.center, angle, law, cost })
         })
+        .flatten()
         .collect();
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    found.truncate(policy::WARP_KEPT);
+    found.truncate(kept);
     found
 }
 
@@ -123,13 +133,16 @@ fn seat(
             let (radius, cells) =
                 if gear == 0 { (speed / (1.0 + speed), di) } else { (1.0 / (1.0 + speed), dj) };
             let scale = share * cells as f64 / (mean * (n * fold as usize) as f64);
-            (0..2 * n)
-                .map(|i| {
-                    // The driver's own direction at the pitch point falls as it turns.
-                    let at = if gear == 0 { whole - i } else { i };
+            // The follower's go twice round, so that a path from any cell reads on.
+            let ends = if gear == 0 { n + 1 } else { 2 * n + 1 };
+            (0..ends)
+                .map(|end| {
+                    // Middle of the step, half cells; the driver's own direction at the pitch point falls as it turns.
+                    let middle = (2 * end + 2 * n - cells) % (2 * n);
+                    let at = if gear == 0 { whole - middle } else { middle };
                     let missed = (0..fold as usize)
                         .map(|w| (squares[(at + 2 * n * w) % whole] - radius * radius).abs());
-                    scale * missed.sum::<f64>()
+                    (scale * missed.sum::<f64>()) as f32
                 })
                 .collect()
         })
@@ -137,59 +150,69 @@ fn seat(
     Some(Seat { center, costs })
 }
 
-/// The cheapest path from follower cell `from` at driver cell 0 once round both: its cost and smoothed dj / di.
-fn path(
+/// The cost of the cheapest path from follower cell `from` at driver cell 0 once round both. The table then holds that of every
+/// cell: rows of driver cells, columns of cells past `from`.
+fn fill(
+    table: &mut Vec<f32>,
     steps: &[(usize, usize)],
-    driver: &[Vec<f64>],
-    follower: &[Vec<f64>],
-    n: usize,
+    driver: &[Vec<f32>],
+    follower: &[Vec<f32>],
     from: usize,
-) -> Option<(f64, Vec<f64>)> {
-    let band = n / policy::WARP_BAND;
-    let side = n + 1;
-    let mut cost = vec![f64::INFINITY; side * side];
-    let mut way = vec![u8::MAX; side * side];
-    cost[0] = 0.0;
-    for i in 0..n {
-        for j in i.saturating_sub(band)..=(i + band).min(n - 1) {
-            let here = cost[i * side + j];
-            if !here.is_finite() {
+) -> f32 {
+    let (n, side, band) = (CELLS, CELLS + 1, CELLS / BAND);
+    table.clear();
+    table.resize(side * side, f32::INFINITY);
+    table[0] = 0.0;
+    for i in 1..side {
+        let (before, row) = table.split_at_mut(i * side);
+        let row = &mut row[..side];
+        let (low, high) = (i.saturating_sub(band), (i + band).min(n));
+        for (k, &(di, dj)) in steps.iter().enumerate().filter(|(_, s)| s.0 <= i) {
+            let low = low.max(dj);
+            if low > high {
                 continue;
             }
-            for (k, &(di, dj)) in steps.iter().enumerate() {
-                let (to_i, to_j) = (i + di, j + dj);
-                if to_i > n || to_j > n {
-                    continue;
-                }
-                let (at_i, mut at_j) = (2 * i + di, 2 * (from + j) + dj);
-                while at_j >= 2 * n {
-                    at_j -= 2 * n;
-                }
-                let at = here + driver[k][at_i] + follower[k][at_j];
-                let cell = to_i * side + to_j;
-                if at < cost[cell] {
-                    cost[cell] = at;
-                    way[cell] = k as u8;
-                }
+            let start = &before[(i - di) * side..][low - dj..=high - dj];
+            let costs = &follower[k][from + low..=from + high];
+            let own = driver[k][i];
+            for ((to, s), c) in row[low..=high].iter_mut().zip(start).zip(costs) {
+                let at = s + (own + c);
+                *to = if at < *to { at } else { *to };
             }
         }
     }
-    let total = cost[side * side - 1];
-    if !total.is_finite() {
-        return None;
-    }
+    table[side * side - 1]
+}
+
+/// dj / di at every driver cell of the path that [`fill`] found, smoothed.
+fn walked_back(
+    table: &[f32],
+    steps: &[(usize, usize)],
+    driver: &[Vec<f32>],
+    follower: &[Vec<f32>],
+    from: usize,
+) -> Option<Vec<f64>> {
+    let (n, side) = (CELLS, CELLS + 1);
     let mut law = vec![1.0; n];
     let (mut i, mut j) = (n, n);
     while i > 0 && j > 0 {
-        let (di, dj) = *steps.get(way[i * side + j] as usize)?;
+        let here = table[i * side + j];
+        // The step whose cost makes up what is here, computed as it was.
+        let (k, _) = steps.iter().enumerate().find(|(k, s)| {
+            s.0 <= i
+                && s.1 <= j
+                && table[(i - s.0) * side + j - s.1] + (driver[*k][i] + follower[*k][from + j])
+                    == here
+        })?;
+        let (di, dj) = steps[k];
         law[i - di..i].fill(dj as f64 / di as f64);
         (i, j) = (i - di, j - dj);
     }
-    for _ in 0..policy::WARP_SMOOTHING {
+    for _ in 0..SMOOTHING {
         let old = law.clone();
         for k in 0..n {
             law[k] = 0.5 * old[k] + 0.25 * (old[(k + 1) % n] + old[(k + n - 1) % n]);
         }
     }
-    Some((total, law))
+    Some(law)
 }
