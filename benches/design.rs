@@ -86,15 +86,12 @@ fn teeth_options(driver_teeth: u32) -> TeethOptions {
 /// Calls `used` with a pair of so many teeth.
 fn with_pair(centrodes: &Centrodes, teeth: u32, used: impl FnOnce(ContactInput<'_>)) {
     let pair = involute_pair(centrodes, &teeth_options(teeth)).expect("teeth on a smooth law");
-    let transmission = &centrodes.transmission;
     used(ContactInput {
         driver: &pair.driver.points,
         follower: &pair.follower.points,
         center_distance: centrodes.center_distance,
         module: pair.module,
-        motion: &|phi| transmission.psi(phi),
-        motion_derivative: &|phi| transmission.derivative(phi),
-        driver_cycle: transmission.driver_period(),
+        motion: &centrodes.transmission,
         control: Control::unwatched(),
     });
 }

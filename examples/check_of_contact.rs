@@ -6,23 +6,20 @@ use centrode::control::Control;
 use centrode::law::{LawOptions, Preset};
 use centrode::meshing::{ContactInput, ContactOptions, analyse};
 use centrode::pitch::Centrodes;
-use centrode::teeth::{TeethOptions, cycle_periods, involute_pair};
+use centrode::teeth::{TeethOptions, involute_pair};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let transmission = Preset::QuickReturn(2.0).transmission(&LawOptions::default())?;
     let centrodes = Centrodes { transmission, center_distance: 60.0 };
     let pair = involute_pair(&centrodes, &TeethOptions::default())?;
 
-    let motion = &centrodes.transmission;
     let contact = analyse(
         &ContactInput {
             driver: &pair.driver.points,
             follower: &pair.follower.points,
             center_distance: centrodes.center_distance,
             module: pair.module,
-            motion: &|phi| motion.psi(phi),
-            motion_derivative: &|phi| motion.derivative(phi),
-            driver_cycle: motion.driver_period() * f64::from(cycle_periods(motion)),
+            motion: &centrodes.transmission,
             control: Control::unwatched(),
         },
         &ContactOptions::default(),

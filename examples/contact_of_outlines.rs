@@ -10,7 +10,6 @@ use centrode::control::Control;
 use centrode::geometry::Point;
 use centrode::meshing::{ContactInput, ContactOptions, analyse};
 use centrode::pitch::Transmission;
-use centrode::teeth::cycle_periods;
 use serde_json::{Value, json};
 
 fn main() -> anyhow::Result<()> {
@@ -32,9 +31,7 @@ fn main() -> anyhow::Result<()> {
         follower: &follower,
         center_distance: number("center_distance")?,
         module: number("module")?,
-        motion: &|phi| motion.psi(phi),
-        motion_derivative: &|phi| motion.derivative(phi),
-        driver_cycle: motion.driver_period() * f64::from(cycle_periods(&motion)),
+        motion: &motion,
         control: Control::unwatched(),
     };
     let summary = analyse(&input, &ContactOptions::default())?.summary;

@@ -13,9 +13,7 @@ use centrode::geometry::Point;
 use centrode::input::{LoadOptions, load};
 use centrode::meshing::{ContactInput, ContactOptions, ContactSummary, analyse};
 use centrode::pitch::Centrodes;
-use centrode::teeth::{
-    TeethOptions, ToothedPair, cycle_periods, involute_pair, regular_wave_pair, wave_pair,
-};
+use centrode::teeth::{TeethOptions, ToothedPair, involute_pair, regular_wave_pair, wave_pair};
 use serde_json::json;
 
 /// Inward offset of every face for the second analysis, mm.
@@ -85,9 +83,7 @@ fn contact(
         follower,
         center_distance: centrodes.center_distance,
         module,
-        motion: &|phi| motion.psi(phi),
-        motion_derivative: &|phi| motion.derivative(phi),
-        driver_cycle: motion.driver_period() * f64::from(cycle_periods(motion)),
+        motion,
         control: Control::unwatched(),
     };
     Ok(analyse(&input, &ContactOptions::default())?.summary)

@@ -10,10 +10,11 @@ use centrode::control::Control;
 use std::f64::consts::TAU;
 
 use anyhow::{Context, bail};
+use centrode::gear::Motion;
 use centrode::geometry::Point;
 use centrode::meshing::{ContactInput, ContactOptions, analyse};
 use centrode::pitch::{Centrodes, Transmission};
-use centrode::teeth::{TeethOptions, cycle_periods, involute_pair};
+use centrode::teeth::{TeethOptions, involute_pair};
 use serde_json::json;
 
 /// Samples of psi' over one driver turn; the spline through them is then exact to 1e-10.
@@ -44,15 +45,12 @@ fn main() -> anyhow::Result<()> {
     let pair = involute_pair(&centrodes, &options)?;
 
     let motion = &centrodes.transmission;
-    let cycle = motion.driver_period() * f64::from(cycle_periods(motion));
     let input = ContactInput {
         driver: &pair.driver.points,
         follower: &pair.follower.points,
         center_distance,
         module: pair.module,
-        motion: &|phi| motion.psi(phi),
-        motion_derivative: &|phi| motion.derivative(phi),
-        driver_cycle: cycle,
+        motion,
         control: Control::unwatched(),
     };
     let contact = analyse(&input, &ContactOptions::default())?.summary;
@@ -68,6 +66,7 @@ fn main() -> anyhow::Result<()> {
 
     if let Some(file) = output {
         let plain = |points: &[Point]| points.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
+        let cycle = motion.cycle();
         let angles: Vec<f64> = (0..=SAMPLES).map(|i| cycle * i as f64 / SAMPLES as f64).collect();
         let record = json!({
             "units": "mm",

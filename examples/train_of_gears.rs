@@ -2,7 +2,7 @@
 //!
 //! usage: cargo run --example train_of_gears
 
-use centrode::assembly::{Layout, PairModel, SampledMotion, TrainPlan};
+use centrode::assembly::{Layout, PairModel, TrainPlan};
 use centrode::control::Control;
 use centrode::design::{DesignOptions, from_motion};
 use centrode::gear::Pair;
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let [driver, follower] = &made.assembly.gears[..] else { return Err("no pair".into()) };
     let pair = PairModel {
         gears: Pair::new(driver.gear.clone(), follower.gear.clone()),
-        motion: SampledMotion::of_pair(&made.assembly)?,
+        motion: made.assembly.motion()?,
         center_distance: made.centrodes.center_distance,
         module: made.pair.module,
     };

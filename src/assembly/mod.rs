@@ -4,15 +4,14 @@
 //! nothing of how the gears were designed.
 
 mod collisions;
-mod motion;
+mod fittings;
 mod train;
 
-pub use motion::{MotionError, SampledMotion};
 pub use train::{Layout, Link, PairModel, Train, TrainError, TrainGear, TrainPlan};
-mod fittings;
 
 pub use fittings::{Fittings, Fixture, Hub, Mark, Opening, Pocket, Post, Stance};
 
+use crate::gear::{MotionError, SampledMotion};
 use crate::geometry::Point;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -84,6 +83,18 @@ impl Assembly {
     pub fn swings(&self) -> bool {
         let ends = self.gears.first().and_then(|g| g.angle.first().zip(g.angle.last()));
         ends.is_some_and(|(first, last)| last <= first)
+    }
+
+    /// The motion of a pair.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn motion(&self) -> Result<SampledMotion, MotionError> {
+        let [_, follower] = self.gears.as_slice() else {
+            return Err(MotionError::NotAPair { count: self.gears.len() });
+        };
+        let angles: Vec<f64> = follower.angle.iter().map(|a| -a).collect();
+        SampledMotion::new(&self.driver_angle, &angles)
     }
 }
 

@@ -5,8 +5,8 @@
 //! `driver = beta + phi`, `follower = beta - psi(phi)`. A gear with several neighbours obeys this in each of its
 //! meshes, so motion is handed on by psi, and by its inverse where a follower drives a driver's twin.
 
-use super::{Assembly, Gear, PlacedGear, SampledMotion, collisions};
-use crate::gear::{Pair, Side};
+use super::{Assembly, Gear, PlacedGear, collisions};
+use crate::gear::{Pair, SampledMotion, Side};
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
 use rayon::prelude::*;

@@ -23,7 +23,7 @@ use crate::meshing::{
     DynamicsOptions, analyse, judge, judge_contact, simulate,
 };
 use crate::policy;
-use motion::Law;
+use motion::Known;
 use pair::Pair;
 use std::f64::consts::TAU;
 use trace::Untraced;
@@ -165,24 +165,20 @@ pub fn check(
         axis::axis(follower, Side::Follower, options.axes[1])?,
     ];
     let pair = set_up([driver, follower], &axes, center_distance, record, options.teeth)?;
-    let law = match motion::law(&pair, record, &options.motion)? {
-        Some(law) => law,
+    let known = match motion::known(&pair, record, &options.motion)? {
+        Some(known) => known,
         None => match derived(&pair, options.phase) {
-            Ok(law) => law,
+            Ok(known) => known,
             Err(Untraced::NoStart) => return Err(CheckError::OverlapAtStart),
             Err(reason) => return Ok(unmoved(&pair, axes, reason, options.phase, notes)),
         },
     };
-    let given = options.phase.or(law.phase.filter(|_| law.source == MotionSource::Record));
-    let phase = match given.or(law.phase) {
+    let given = options.phase.or(known.phase.filter(|_| known.source == MotionSource::Record));
+    let phase = match given.or(known.phase) {
         Some(phase) => phase,
-        None => {
-            phase::for_motion(&pair, &|a| law.psi(a), law.cycle)
-                .ok_or(CheckError::OverlapAtStart)?
-                .phase
-        }
+        None => phase::for_motion(&pair, &*known.motion).ok_or(CheckError::OverlapAtStart)?.phase,
     };
-    judged(&pair, axes, &law, (phase, given.is_some()), options, notes)
+    judged(&pair, axes, &known, (phase, given.is_some()), options, notes)
 }
 
 /// What both gears' files tell, if they are the same file.
@@ -229,35 +225,32 @@ fn set_up(
     Ok(Pair::new(driver, follower, center_distance, teeth))
 }
 
-/// The law that contact tells; round gears turn evenly.
-fn derived(pair: &Pair, phase: Option<f64>) -> Result<Law, Untraced> {
+/// The motion that contact tells; round gears turn evenly.
+fn derived(pair: &Pair, phase: Option<f64>) -> Result<Known, Untraced> {
     if pair.is_round() {
         let turns = pair.cycle_turns().min(pair.ratio().max(1.0).ceil() as u32);
-        return Ok(Law::even(pair.ratio(), TAU * f64::from(turns), MotionSource::Teeth));
+        return Ok(Known::even(pair.ratio(), f64::from(turns), MotionSource::Teeth));
     }
     let traced = trace::traced(pair, phase)?;
-    Ok(Law::sampled(traced.motion, 1, Some(traced.phase), MotionSource::Contact))
+    Ok(Known::sampled(traced.motion, Some(traced.phase), MotionSource::Contact))
 }
 
 fn judged(
     pair: &Pair,
     axes: [(Point, AxisSource); 2],
-    law: &Law,
+    known: &Known,
     (phase, phase_given): (f64, bool),
     options: &CheckOptions,
     mut notes: Vec<String>,
 ) -> Result<CheckReport, CheckError> {
     let follower: Vec<Point> =
         pair.follower.iter().map(|&p| crate::geometry::rotate(p, -phase)).collect();
-    let (psi, slope) = (|a: f64| law.psi(a), |a: f64| law.derivative(a));
     let input = ContactInput {
         driver: &pair.driver,
         follower: &follower,
         center_distance: pair.center_distance,
         module: pair.module,
-        motion: &psi,
-        motion_derivative: &slope,
-        driver_cycle: law.cycle,
+        motion: &*known.motion,
         control: &options.control,
     };
     let analysis = analyse(&input, &options.contact)?;
@@ -273,18 +266,20 @@ fn judged(
     } else if !options.runs.is_empty() {
         notes.push("no rigid-body run was made, for contact alone shows the fault".to_owned());
     }
-    if options.motion != MotionGiven::Unknown && (pair.ratio() - law.ratio()).abs() > 1e-3 {
+    if options.motion != MotionGiven::Unknown && (pair.ratio() - known.ratio()).abs() > 1e-3 {
         notes.push(format!(
             "the teeth counted ({} and {}) give a ratio of {:.4}, the motion {:.4}",
             teeth[0],
             teeth[1],
             pair.ratio(),
-            law.ratio()
+            known.ratio()
         ));
     }
     let report = judge(analysis, runs, pair.module, teeth[0], &options.limits);
     let samples = policy::CHECK_SAMPLES;
-    let at = |i: usize| law.psi(law.cycle * i as f64 / samples as f64) - law.psi(0.0);
+    let cycle = known.motion.cycle();
+    let psi = |angle: f64| known.motion.psi(angle);
+    let at = |i: usize| psi(cycle * i as f64 / samples as f64) - psi(0.0);
     Ok(CheckReport {
         diagnostics: report.diagnostics,
         axes,
@@ -293,9 +288,9 @@ fn judged(
         module: pair.module,
         phase,
         phase_given,
-        ratio: law.ratio(),
-        motion: law.source,
-        driver_cycle: law.cycle,
+        ratio: known.ratio(),
+        motion: known.source,
+        driver_cycle: cycle,
         psi: (0..=samples).map(at).collect(),
         contact: Some(report.contact.summary),
         runs: report.runs,

@@ -2,9 +2,8 @@
 
 use super::pair::Pair;
 use super::{CheckError, MotionGiven, MotionSource};
-use crate::gear::Side;
+use crate::gear::{EvenMotion, Motion, MotionError, SampledMotion, Side};
 use crate::input::PairRecord;
-use crate::meshing::{MotionError, SampledMotion};
 use crate::policy;
 use std::f64::consts::TAU;
 
@@ -65,87 +64,57 @@ pub fn motion_from_columns(text: &str) -> Result<(Vec<f64>, Vec<f64>), MotionFil
     Ok((driver, follower))
 }
 
-/// psi, and over which driver angle it is judged.
-#[derive(Clone, Debug)]
-pub(super) struct Law {
-    kind: Kind,
-    /// Driver angle over which the pair is judged, radians.
-    pub(super) cycle: f64,
+/// The motion that a pair is judged by, over its cycle.
+#[derive(Debug)]
+pub(super) struct Known {
+    pub(super) motion: Box<dyn Motion>,
     /// The follower's phase, if it comes with the motion.
     pub(super) phase: Option<f64>,
     pub(super) source: MotionSource,
 }
 
-#[derive(Clone, Debug)]
-enum Kind {
-    Even(f64),
-    Sampled(SampledMotion),
-}
-
-impl Law {
-    /// psi = phi / ratio.
-    pub(super) fn even(ratio: f64, cycle: f64, source: MotionSource) -> Self {
-        Self { kind: Kind::Even(ratio), cycle, phase: None, source }
+impl Known {
+    /// Round gears, `ratio` turns of the driver for one of the follower, judged over whole turns of the driver.
+    pub(super) fn even(ratio: f64, turns: f64, source: MotionSource) -> Self {
+        let motion = EvenMotion { speed: 1.0 / ratio, cycle: TAU * turns };
+        Self { motion: Box::new(motion), phase: None, source }
     }
 
-    /// `repeats` of the samples make a whole cycle.
-    pub(super) fn sampled(
-        motion: SampledMotion,
-        repeats: u32,
-        phase: Option<f64>,
-        source: MotionSource,
-    ) -> Self {
-        let cycle = motion.cycle() * f64::from(repeats);
-        Self { kind: Kind::Sampled(motion), cycle, phase, source }
-    }
-
-    pub(super) fn psi(&self, driver_angle: f64) -> f64 {
-        match &self.kind {
-            Kind::Even(ratio) => driver_angle / ratio,
-            Kind::Sampled(motion) => motion.psi(driver_angle),
-        }
-    }
-
-    pub(super) fn derivative(&self, driver_angle: f64) -> f64 {
-        match &self.kind {
-            Kind::Even(ratio) => 1.0 / ratio,
-            Kind::Sampled(motion) => motion.derivative(driver_angle),
-        }
+    pub(super) fn sampled(motion: SampledMotion, phase: Option<f64>, source: MotionSource) -> Self {
+        Self { motion: Box::new(motion), phase, source }
     }
 
     /// Turns of the driver for one of the follower.
     pub(super) fn ratio(&self) -> f64 {
-        match &self.kind {
-            Kind::Even(ratio) => *ratio,
-            Kind::Sampled(_) => self.cycle / (self.psi(self.cycle) - self.psi(0.0)),
-        }
+        let cycle = self.motion.cycle();
+        cycle / (self.motion.psi(cycle) - self.motion.psi(0.0))
     }
 }
 
-/// The law that is given or recorded; `None` when contact has to tell.
-pub(super) fn law(
+/// The motion that is given or recorded; `None` when contact has to tell.
+pub(super) fn known(
     pair: &Pair,
     record: Option<&PairRecord>,
     given: &MotionGiven,
-) -> Result<Option<Law>, CheckError> {
+) -> Result<Option<Known>, CheckError> {
     match (given, record) {
         (MotionGiven::Ratio(ratio), _) => {
             if !(ratio.is_finite() && *ratio > 0.0) {
                 return Err(CheckError::NotPositive { name: "ratio", value: *ratio });
             }
             let turns = ratio.max(1.0).ceil().min(f64::from(policy::CHECK_TURNS));
-            Ok(Some(Law::even(*ratio, TAU * turns, MotionSource::Ratio)))
+            Ok(Some(Known::even(*ratio, turns, MotionSource::Ratio)))
         }
         (MotionGiven::Sampled { driver, follower }, _) => {
             let motion = SampledMotion::new(driver, follower).map_err(MotionFileError::Samples)?;
             let repeats = repeats(driver, follower)?;
-            Ok(Some(Law::sampled(motion, repeats, None, MotionSource::Samples)))
+            Ok(Some(Known::sampled(motion.repeated(repeats), None, MotionSource::Samples)))
         }
         (MotionGiven::Unknown, Some(record)) => {
             let (driver, follower) = (&record.driver_angle, &record.follower_angle);
             let motion = SampledMotion::new(driver, follower).map_err(MotionFileError::Samples)?;
             let repeats = repeats(driver, follower)?;
-            Ok(Some(Law::sampled(motion, repeats, Some(0.0), MotionSource::Record)))
+            Ok(Some(Known::sampled(motion.repeated(repeats), Some(0.0), MotionSource::Record)))
         }
         (MotionGiven::Unknown, None) => {
             let turns = pair.cycle_turns();

@@ -2,7 +2,7 @@
 //! follower can stand.
 
 use super::teeth::Teeth;
-use crate::geometry::Point;
+use crate::geometry::{Point, gcd};
 use crate::meshing::{Gap, GapFinder};
 use std::f64::consts::PI;
 
@@ -69,8 +69,4 @@ impl Pair {
         let radius = self.radii(driver_angle, follower_angle)[1];
         self.finder.depth(driver_angle, follower_angle, radius)
     }
-}
-
-pub(super) fn gcd(a: u32, b: u32) -> u32 {
-    if b == 0 { a } else { gcd(b, a % b) }
 }

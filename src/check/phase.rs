@@ -2,12 +2,10 @@
 
 use super::pair::Pair;
 use super::teeth::median;
+use crate::gear::Motion;
 use crate::policy;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
-
-/// psi at a driver angle, radians.
-pub(super) type Motion<'a> = &'a (dyn Fn(f64) -> f64 + Sync);
 
 /// Follower angles in (-pi, pi] at which the teeth interlock at a driver angle, those nearest 0
 /// first.
@@ -46,14 +44,15 @@ pub(super) struct Fitted {
 
 /// The phase for a given motion: among the angles at which the teeth interlock at some driver angle
 /// the one that goes on to do so. `None` when they never interlock.
-pub(super) fn for_motion(pair: &Pair, motion: Motion<'_>, cycle: f64) -> Option<Fitted> {
+pub(super) fn for_motion(pair: &Pair, motion: &dyn Motion) -> Option<Fitted> {
+    let cycle = motion.cycle();
     let poses = |count: usize| -> Vec<f64> {
         (0..count).map(|i| (i as f64 * policy::GOLDEN_FRACTION).fract() * cycle).collect()
     };
     // A damaged place may hold no candidate; others do.
     let found = poses(8).into_iter().find_map(|at| {
         let found = candidates(pair, at);
-        let back = |angle: f64| PI - (PI - angle + motion(at)).rem_euclid(TAU);
+        let back = |angle: f64| PI - (PI - angle + motion.psi(at)).rem_euclid(TAU);
         (!found.is_empty()).then(|| found.into_iter().map(back).collect::<Vec<_>>())
     });
     let Some(candidates) = found else {
@@ -76,7 +75,7 @@ pub(super) fn for_motion(pair: &Pair, motion: Motion<'_>, cycle: f64) -> Option<
 }
 
 /// The phase of least overlap over some poses, if it stays below [`policy::DEEP_INTERFERENCE`].
-fn least_overlap(pair: &Pair, motion: Motion<'_>, poses: &[f64]) -> Option<f64> {
+fn least_overlap(pair: &Pair, motion: &dyn Motion, poses: &[f64]) -> Option<f64> {
     let limit = policy::DEEP_INTERFERENCE * pair.module;
     let mut guesses = Vec::new();
     // One gap is as good as another on round gears.
@@ -89,7 +88,7 @@ fn least_overlap(pair: &Pair, motion: Motion<'_>, poses: &[f64]) -> Option<f64> 
     let overlap = |&phase: &f64| -> Option<(f64, f64)> {
         let mut worst = 0.0_f64;
         for &at in poses {
-            worst = worst.max(pair.depth(at, phase + motion(at)));
+            worst = worst.max(pair.depth(at, phase + motion.psi(at)));
             if worst > limit {
                 return None;
             }
@@ -102,11 +101,11 @@ fn least_overlap(pair: &Pair, motion: Motion<'_>, poses: &[f64]) -> Option<f64> 
 
 /// Moves a phase to the middle of what all poses leave free, or to the middle of their middles where
 /// they contradict each other.
-fn fitted(pair: &Pair, motion: Motion<'_>, phase: f64, poses: &[f64]) -> Fitted {
+fn fitted(pair: &Pair, motion: &dyn Motion, phase: f64, poses: &[f64]) -> Fitted {
     let gaps: Vec<[f64; 3]> = poses
         .par_iter()
         .filter_map(|&at| {
-            let psi = motion(at);
+            let psi = motion.psi(at);
             let gap = pair.gap(at, phase + psi)?;
             let stray = (gap.center() - psi - phase).abs() / pair.pitch(at, phase + psi);
             let believed = stray <= policy::PHASE_STRAY;

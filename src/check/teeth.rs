@@ -1,6 +1,6 @@
 //! Teeth counted on an outline of which nothing else is known.
 
-use super::pair::gcd;
+use crate::geometry::gcd;
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 use realfft::RealFftPlanner;

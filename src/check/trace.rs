@@ -3,7 +3,7 @@
 use super::pair::Pair;
 use super::phase::candidates;
 use super::teeth::median;
-use crate::meshing::SampledMotion;
+use crate::gear::SampledMotion;
 use crate::policy;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};

@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use centrode::design::{BoreChoice, Design, run_record};
 use centrode::diagnose::Verdict;
+use centrode::gear::Motion;
 use centrode::meshing::ContactPose;
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section};
 use centrode::solid::{PrintFinding, print_findings};
-use centrode::teeth::cycle_periods;
 use serde_json::json;
 
 /// Samples of a curve on the page.
@@ -410,7 +410,7 @@ fn plots(made: &Design) -> Vec<Plot> {
             .map(|phi| (phi, f(from + phi)))
             .collect()
     };
-    let cycle = transmission.driver_period() * f64::from(cycle_periods(transmission));
+    let cycle = transmission.cycle();
     let posed = |f: &dyn Fn(&ContactPose) -> f64| -> Vec<(f64, f64)> {
         let mut points: Vec<(f64, f64)> = made
             .contact

@@ -29,9 +29,7 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
         follower: &follower.outline,
         center_distance: saved.center_distance,
         module: saved.module,
-        motion: &|angle| motion.psi(angle),
-        motion_derivative: &|angle| motion.derivative(angle),
-        driver_cycle: saved.driver_angle.last().copied().unwrap_or(std::f64::consts::TAU),
+        motion: &motion,
         control: Control::unwatched(),
     };
     let analysis = analyse(&contact, &ContactOptions::default())?;

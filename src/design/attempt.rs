@@ -9,7 +9,7 @@ use super::{
 use crate::assembly::{Assembly, Fittings, Gear};
 use crate::control::Control;
 use crate::fit;
-use crate::gear::Side;
+use crate::gear::{Motion, Side};
 use crate::geometry::{self, Point};
 use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
 use crate::pitch::{Centrodes, Transmission};
@@ -179,7 +179,7 @@ impl Attempt {
     fn relieve(&mut self, control: &Control) -> Result<(), DesignError> {
         let (centrodes, module) = (&self.centrodes, self.pair.module);
         let t = &centrodes.transmission;
-        let cycle = t.driver_period() * f64::from(teeth::cycle_periods(t));
+        let cycle = t.cycle();
         let follower_teeth = self.settings.teeth * t.follower_fold() / t.driver_fold();
         let pitch = std::f64::consts::TAU / f64::from(follower_teeth);
         for _ in 0..policy::RELIEF_ROUNDS {
@@ -415,9 +415,9 @@ impl Attempt {
                 fittings: Fittings::default(),
             });
         }
-        let periods = teeth::cycle_periods(transmission);
+        let periods = transmission.cycle_periods();
         let count = policy::MOTION_SAMPLES * periods as usize;
-        let cycle = transmission.driver_period() * f64::from(periods);
+        let cycle = transmission.cycle();
         let driver_angle: Vec<f64> = (0..=count).map(|i| cycle * i as f64 / count as f64).collect();
         let follower_angle = driver_angle.iter().map(|&phi| -transmission.psi(phi)).collect();
         let axes = [Point::origin(), Point::new(self.centrodes.center_distance, 0.0)];
@@ -480,8 +480,8 @@ fn carved_by_solids(
         .map(|p| p.coords.norm())
         .fold(0.0, f64::max);
     let blank = circle(widest + options.addendum * pair.module, policy::BORE_CHORD_TOLERANCE);
-    let count = policy::SOLID_CARVING_POSES * teeth::cycle_periods(transmission);
-    let cycle = transmission.driver_period() * f64::from(teeth::cycle_periods(transmission));
+    let count = policy::SOLID_CARVING_POSES * transmission.cycle_periods();
+    let cycle = transmission.cycle();
     let poses: Vec<(f64, f64)> = (0..count)
         .map(|i| cycle * f64::from(i) / f64::from(count))
         .map(|phi| (phi, transmission.psi(phi)))
@@ -512,9 +512,7 @@ fn contact(
         follower: &follower.points,
         center_distance: centrodes.center_distance,
         module,
-        motion: &|phi| transmission.psi(phi),
-        motion_derivative: &|phi| transmission.derivative(phi),
-        driver_cycle: transmission.driver_period() * f64::from(teeth::cycle_periods(transmission)),
+        motion: transmission,
         control,
     };
     let options = ContactOptions { poses, ..ContactOptions::default() };

@@ -94,8 +94,7 @@ impl Design {
         if runs.is_empty() {
             return Ok(());
         }
-        let cycle = self.assembly.driver_angle.last().copied().unwrap_or_default();
-        let proof = self.in_mesh(cycle, |contact| {
+        let proof = self.in_mesh(|contact| {
             let input = DynamicsInput { contact, driver_teeth: self.teeth[0] };
             prove(&input, self.contact.clone(), runs, &Limits::default())
         });
@@ -113,18 +112,15 @@ impl Design {
         Ok(())
     }
 
-    /// What `with` makes of the finished gears in mesh over a driver angle of `cycle`; none unless they are a pair.
-    fn in_mesh<T>(&self, cycle: f64, with: impl FnOnce(ContactInput<'_>) -> T) -> Option<T> {
+    /// What `with` makes of the finished gears in mesh; none unless they are a pair.
+    fn in_mesh<T>(&self, with: impl FnOnce(ContactInput<'_>) -> T) -> Option<T> {
         let [driver, follower] = &self.assembly.gears[..] else { return None };
-        let transmission = &self.centrodes.transmission;
         Some(with(ContactInput {
             driver: &driver.gear.outline,
             follower: &follower.gear.outline,
             center_distance: self.centrodes.center_distance,
             module: self.pair.module,
-            motion: &|phi| transmission.psi(phi),
-            motion_derivative: &|phi| transmission.derivative(phi),
-            driver_cycle: cycle,
+            motion: &self.centrodes.transmission,
             control: &self.options.control,
         }))
     }

@@ -9,7 +9,8 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::fittings_record::{FittingsRecord, FixtureRecord};
-use crate::assembly::{Assembly, Fixture, Gear, MotionError, PlacedGear, SampledMotion};
+use crate::assembly::{Assembly, Fixture, Gear, PlacedGear};
+use crate::gear::{MotionError, SampledMotion};
 use crate::geometry::{self, Point};
 use crate::policy;
 use crate::wording::quoted;

@@ -82,8 +82,7 @@ fn judge(made: &mut Design, segment: Segment) -> Result<(), DesignError> {
     let count = policy::CONTACT_POSES;
     let angles: Vec<f64> =
         (0..=count).map(|i| segment.from + segment.length() * i as f64 / count as f64).collect();
-    let poses = made
-        .in_mesh(segment.length(), |input| poses_at(&input, &ContactOptions::default(), &angles));
+    let poses = made.in_mesh(|input| poses_at(&input, &ContactOptions::default(), &angles));
     let poses = poses.transpose()?.unwrap_or_default();
     let known = made.contact.summary.max_interference.as_ref().map_or(0.0, |w| w.value);
     let allowed = known + policy::WORST_INTERFERENCE * made.pair.module;

@@ -8,8 +8,8 @@ use serde::Deserialize;
 
 use super::saved::bounded_text;
 use super::{SavedDesign, SavedError};
-use crate::assembly::{Link, MotionError, PairModel, TrainGear, TrainPlan};
-use crate::gear::Side;
+use crate::assembly::{Link, PairModel, TrainGear, TrainPlan};
+use crate::gear::{MotionError, Side};
 use crate::policy;
 use crate::wording::quoted;
 

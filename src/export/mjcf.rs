@@ -4,8 +4,9 @@ mod text;
 
 use super::{Export, ExportError, Parts, write_atomically};
 use crate::assembly::{Assembly, PlacedGear};
+use crate::gear::SampledMotion;
 use crate::geometry::{Point, Vector, cross, perimeter};
-use crate::meshing::{SampledMotion, convex_partition};
+use crate::meshing::convex_partition;
 use crate::policy;
 use std::f64::consts::{PI, TAU};
 use std::io::{self, ErrorKind, Write};

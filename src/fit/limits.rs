@@ -12,7 +12,9 @@
 use std::f64::consts::TAU;
 
 use super::lipschitz::{between, envelope, smoothed};
-use crate::pitch::{Centrodes, Transmission, TransmissionError, center_distance, solve_cyclic};
+use crate::gear::Gearing;
+use crate::geometry::solve_cyclic;
+use crate::pitch::{Centrodes, Transmission, TransmissionError, center_distance};
 use crate::policy;
 
 /// Bounds on a law psi'.
@@ -344,15 +346,10 @@ impl Task<'_> {
                 let (p, next, previous) = (law[i], law[(i + 1) % n], law[(i + n - 1) % n]);
                 let (p1, p2) =
                     ((next - previous) / (2.0 * h), (next - 2.0 * p + previous) / (h * h));
-                let q = 1.0 + p;
-                let (r, d1) = (p / q, p1 / (q * q));
-                let d2 = (p2 - 2.0 * p1 * p1 / q) / (q * q);
-                length += r.hypot(d1);
-                let bend = |r: f64, r1: f64, r2: f64| {
-                    let speed2 = r * r + r1 * r1;
-                    ((r * r + 2.0 * r1 * r1 - r * r2) / (speed2 * speed2.sqrt())).abs()
-                };
-                bend(r, d1, d2).max(bend(1.0 - r, -d1 / p, (-d2 + d1 * p1 / p) / (p * p)))
+                let at = Gearing::External.at(1.0, [p, p1, p2]);
+                length += at.arc_speed();
+                let bend = at.curvatures().map(f64::abs);
+                bend.driver.max(bend.follower)
             })
             .collect();
         (bends, length * h * f64::from(self.folds.0))
@@ -361,7 +358,7 @@ impl Task<'_> {
 
 /// ln of the driver's pitch radius over the centre distance.
 fn log_radius(law: &[f64]) -> Vec<f64> {
-    law.iter().map(|p| (p / (1.0 + p)).ln()).collect()
+    law.iter().map(|&p| Gearing::External.radii(1.0, p).driver.ln()).collect()
 }
 
 /// One implicit step of diffusion, `strength` in samples squared.

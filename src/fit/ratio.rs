@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::geometry::gcd;
 use crate::policy;
 
 /// Driver turns for one turn of the follower: `K` or `1/K`, K = 1, 2, 3..., and for motions also `m/n`.
@@ -131,13 +132,6 @@ impl FromStr for Ratio {
             Some(_) => Err(refuse()),
         }
     }
-}
-
-fn gcd(mut a: u32, mut b: u32) -> u32 {
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use super::limits::{Limits, bound_torque};
 use super::lipschitz::{between, envelope};
+use crate::gear::Gearing;
 use crate::pitch::center_distance;
 
 /// The bounds of a pair, ready to be put on laws of one length.
@@ -62,7 +63,8 @@ impl Sketch {
     }
 
     fn bound_lean(&self, law: &[f64]) -> Vec<f64> {
-        let y: Vec<f64> = law.iter().map(|p| (p / (1.0 + p)).ln()).collect();
+        let y: Vec<f64> =
+            law.iter().map(|&p| Gearing::External.radii(1.0, p).driver.ln()).collect();
         let upper = envelope(&y, self.rise, 1.0);
         let lower = envelope(&y, self.rise, -1.0);
         let radii: Vec<f64> = between(&upper, &lower, law).iter().map(|y| y.exp()).collect();

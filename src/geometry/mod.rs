@@ -1,16 +1,19 @@
 //! Plane geometry shared by every room: points, polygons, booleans, splines.
 
 pub mod curves;
+mod cyclic;
+mod integers;
 mod letters;
 mod polygon;
 mod region;
 
+pub(crate) use cyclic::solve_cyclic;
+pub use integers::gcd;
 pub use letters::{Lettering, LetteringError, has_letter, lettering};
 pub use polygon::{
     area, bounds, centroid, contains, first_self_crossing, intersection_over_union, perimeter,
     signed_area,
 };
-
 pub use region::{Face, difference, largest, offset, positive_part, union};
 
 /// A point in the plane, in mm unless a function says otherwise.

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::{LawError, LawOptions, Quantity, Segment, closed, from_segment};
-use crate::pitch::{Transmission, solve_cyclic};
+use crate::geometry::solve_cyclic;
+use crate::pitch::Transmission;
 use crate::policy;
 use crate::wording::quoted;
 

@@ -10,7 +10,7 @@
 use super::play::{Body, Play, Pose, Touch, free_play};
 use super::summary::ContactSummary;
 use crate::control::{Cancelled, Control, Meter, StageName};
-use crate::gear::Side;
+use crate::gear::{Gearing, Motion, Side};
 use crate::geometry::{Point, Vector, cross, perimeter};
 use crate::policy;
 use rayon::prelude::*;
@@ -27,12 +27,8 @@ pub struct ContactInput<'a> {
     pub center_distance: f64,
     /// Module, mm: pitch over pi, measured along the pitch curve.
     pub module: f64,
-    /// psi: follower angle, radians clockwise, at a driver angle in radians.
-    pub motion: &'a (dyn Fn(f64) -> f64 + Sync),
-    /// psi', the derivative of the motion; positive.
-    pub motion_derivative: &'a (dyn Fn(f64) -> f64 + Sync),
-    /// Driver angle of one whole cycle of both gears, radians (2 pi K for integer K).
-    pub driver_cycle: f64,
+    /// How the follower turns, clockwise, with the driver.
+    pub motion: &'a dyn Motion,
     /// Who may stop the work and hears how far it is.
     pub control: &'a Control,
 }
@@ -44,7 +40,7 @@ impl std::fmt::Debug for ContactInput<'_> {
             .field("follower", &self.follower.len())
             .field("center_distance", &self.center_distance)
             .field("module", &self.module)
-            .field("driver_cycle", &self.driver_cycle)
+            .field("cycle", &self.motion.cycle())
             .finish_non_exhaustive()
     }
 }
@@ -215,13 +211,13 @@ fn analyse_from(
 ) -> Result<ContactAnalysis, ContactError> {
     check(input, options)?;
     let angles: Vec<f64> = (known.len()..options.poses)
-        .map(|i| ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract() * input.driver_cycle)
+        .map(|i| ((i as f64 + 0.5) * policy::GOLDEN_FRACTION).fract() * input.motion.cycle())
         .collect();
     let meter = input.control.meter(StageName::Analysed, angles.len());
     let mut poses = poses_counted(input, options, &angles, Some(&meter))?;
     poses.extend(known);
     poses.sort_by(|a, b| a.driver_angle.total_cmp(&b.driver_angle));
-    let summary = ContactSummary::new(&poses, input.driver_cycle);
+    let summary = ContactSummary::new(&poses, input.motion.cycle());
     Ok(ContactAnalysis { center_distance: input.center_distance, poses, summary })
 }
 
@@ -307,7 +303,7 @@ fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), Conta
     let numbers = [
         ("centre distance", input.center_distance),
         ("module", input.module),
-        ("driver cycle", input.driver_cycle),
+        ("driver cycle", input.motion.cycle()),
         ("number of poses", options.poses as f64),
         ("search range", options.search_pitch),
         ("contact distance", options.contact_distance),
@@ -324,7 +320,8 @@ fn check(input: &ContactInput<'_>, options: &ContactOptions) -> Result<(), Conta
 
 /// Radius of the follower's pitch curve at the pitch point, mm, and the turn of the follower by one pitch there.
 fn pitch_at(input: &ContactInput<'_>, driver_angle: f64) -> (f64, f64) {
-    let follower_radius = input.center_distance / (1.0 + (input.motion_derivative)(driver_angle));
+    let speed = input.motion.derivative(driver_angle);
+    let follower_radius = Gearing::External.radii(input.center_distance, speed).follower;
     (follower_radius, PI * input.module / follower_radius)
 }
 
@@ -335,7 +332,7 @@ fn designed(
     driver_angle: f64,
     follower_angle: f64,
 ) -> Result<Pose, ContactError> {
-    let ratio = (input.motion_derivative)(driver_angle);
+    let ratio = input.motion.derivative(driver_angle);
     if !(follower_angle.is_finite() && ratio.is_finite() && ratio > 0.0) {
         return Err(ContactError::BadMotion { driver_angle });
     }
@@ -362,7 +359,7 @@ fn pose_at(
     follower: &Body,
     driver_angle: f64,
 ) -> Result<ContactPose, ContactError> {
-    let pose = designed(input, options, driver_angle, (input.motion)(driver_angle))?;
+    let pose = designed(input, options, driver_angle, input.motion.psi(driver_angle))?;
     let (follower_radius, pitch) = pitch_at(input, driver_angle);
     let play = free_play(driver, follower, &pose);
     let contacts = contacts(&play, input, options);

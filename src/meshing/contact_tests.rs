@@ -1,5 +1,6 @@
 use super::*;
 use crate::control::Control;
+use crate::gear::EvenMotion;
 use crate::meshing::spur::Spur;
 use std::f64::consts::TAU;
 
@@ -43,9 +44,7 @@ impl Pair {
             follower: &self.follower.outline(gap, FLANK, self.follower.teeth),
             center_distance: self.distance(),
             module: self.driver.module,
-            motion: &|angle| ratio * angle,
-            motion_derivative: &|_| ratio,
-            driver_cycle: TAU,
+            motion: &EvenMotion { speed: ratio, cycle: TAU },
             control: Control::unwatched(),
         })
     }
@@ -157,9 +156,7 @@ fn one_flank_may_interfere_while_the_other_is_free() {
             follower: &follower,
             center_distance: pair.distance(),
             module: 2.0,
-            motion: &|angle| 0.75 * angle,
-            motion_derivative: &|_| 0.75,
-            driver_cycle: TAU,
+            motion: &EvenMotion { speed: 0.75, cycle: TAU },
             control: Control::unwatched(),
         },
         &quick(2e-3),
@@ -223,16 +220,13 @@ fn bad_input_is_refused() {
     let mut broken = good.clone();
     broken[7].y = f64::NAN;
     let run = |driver: &[Point], module: f64, ratio: f64| {
-        let motion = move |angle: f64| ratio * angle;
         analyse(
             &ContactInput {
                 driver,
                 follower: &good,
                 center_distance: 60.0,
                 module,
-                motion: &motion,
-                motion_derivative: &|_| ratio,
-                driver_cycle: TAU,
+                motion: &EvenMotion { speed: ratio, cycle: TAU },
                 control: Control::unwatched(),
             },
             &quick(2e-3),

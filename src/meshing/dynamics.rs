@@ -13,7 +13,7 @@ use super::summary::WorstPlace;
 use super::touches::Touches;
 use super::world::{World, WorldGear, WorldInput};
 use crate::control::{Cancelled, StageName};
-use crate::gear::Side;
+use crate::gear::{Mirrored, Motion, Side};
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 use std::f64::consts::TAU;
@@ -260,8 +260,7 @@ pub fn simulate(
     let contact = ContactInput {
         driver: &driver,
         follower: &follower,
-        motion: &|angle| -(plain.motion)(-angle),
-        motion_derivative: &|angle| (plain.motion_derivative)(-angle),
+        motion: &Mirrored(plain.motion),
         ..*plain
     };
     let mut made = plain.control.run(|| run(&DynamicsInput { contact, ..*input }, options))?;
@@ -299,7 +298,7 @@ fn check(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<(), Dyn
         return Err(DynamicsError::Option { name, value, remedy });
     }
     if let Drive::Motor(Some(limit)) = options.drive {
-        let least = options.load * steepest(&input.contact);
+        let least = options.load * steepest(input.contact.motion);
         if limit <= least {
             return Err(DynamicsError::WeakMotor { limit, least });
         }
@@ -313,14 +312,14 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
     let step = TAU / f64::from(input.driver_teeth) / f64::from(options.steps_per_tooth);
     let lead_steps = (policy::LEAD_IN_TEETH * f64::from(options.steps_per_tooth)).ceil() as usize;
     let start = -(lead_steps as f64) * step;
-    let wanted = (options.cycles * pair.driver_cycle / step).ceil();
+    let wanted = (options.cycles * pair.motion.cycle() / step).ceil();
     let count = wanted.min(policy::MOST_STEPS as f64) as usize;
     // Bad outlines and motions are found here, before any step.
     let first = poses_at(pair, &ContactOptions::default(), &[start])?.swap_remove(0);
     let play = if first.lost { 0.0 } else { first.play_behind };
-    let curve = greatest_acceleration(pair);
+    let curve = greatest_acceleration(pair.motion);
     let real = inertia(pair.follower, options) / options.load;
-    let steepest = steepest(pair);
+    let steepest = steepest(pair.motion);
     let motor = match options.drive {
         Drive::Led => None,
         Drive::Motor(limit) => {
@@ -340,8 +339,8 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
     let follower = WorldGear {
         outline: pair.follower,
         axis: Point::new(pair.center_distance, 0.0),
-        angle: play - (pair.motion)(start),
-        speed: -(pair.motion_derivative)(start),
+        angle: play - pair.motion.psi(start),
+        speed: -pair.motion.derivative(start),
         // The follower turns clockwise; the load holds it back.
         torque: 1.0,
         ..driver
@@ -377,7 +376,7 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
             break;
         }
         if i > lead_steps || motor.is_some() {
-            recorder.record(&world, (pair.motion)(driver_angle));
+            recorder.record(&world, pair.motion.psi(driver_angle));
         }
         if i % tooth == 0 {
             if driver_angle - before < policy::STALLED * tooth as f64 * step {
@@ -409,24 +408,21 @@ pub(super) fn inertia(outline: &[Point], options: &DynamicsOptions) -> f64 {
 }
 
 /// Greatest |psi''|, at least [`policy::LEAST_ACCELERATION`] of the mean ratio.
-pub(super) fn greatest_acceleration(pair: &ContactInput<'_>) -> f64 {
+pub(super) fn greatest_acceleration(motion: &dyn Motion) -> f64 {
     let h = TAU / policy::ACCELERATION_SAMPLES as f64;
-    let mean = (pair.motion)(pair.driver_cycle) - (pair.motion)(0.0);
-    let least = policy::LEAST_ACCELERATION * mean / pair.driver_cycle;
-    over_cycle(pair)
-        .map(|a| {
-            ((pair.motion_derivative)(a + h) - (pair.motion_derivative)(a - h)).abs() / (2.0 * h)
-        })
-        .fold(least, f64::max)
+    let mean = (motion.psi(motion.cycle()) - motion.psi(0.0)) / motion.cycle();
+    over_cycle(motion)
+        .map(|a| (motion.derivative(a + h) - motion.derivative(a - h)).abs() / (2.0 * h))
+        .fold(policy::LEAST_ACCELERATION * mean, f64::max)
 }
 
-fn steepest(pair: &ContactInput<'_>) -> f64 {
-    over_cycle(pair).map(pair.motion_derivative).fold(0.0, f64::max)
+fn steepest(motion: &dyn Motion) -> f64 {
+    over_cycle(motion).map(|a| motion.derivative(a)).fold(0.0, f64::max)
 }
 
-fn over_cycle(pair: &ContactInput<'_>) -> impl Iterator<Item = f64> {
+fn over_cycle(motion: &dyn Motion) -> impl Iterator<Item = f64> {
     let h = TAU / policy::ACCELERATION_SAMPLES as f64;
-    let count = (pair.driver_cycle / h).ceil().min(policy::MOST_STEPS as f64) as usize;
+    let count = (motion.cycle() / h).ceil().min(policy::MOST_STEPS as f64) as usize;
     (0..count).map(move |i| i as f64 * h)
 }
 

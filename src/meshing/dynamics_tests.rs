@@ -1,5 +1,6 @@
 use super::*;
 use crate::control::Control;
+use crate::gear::EvenMotion;
 use crate::meshing::spur::Spur;
 use crate::meshing::write_csv;
 use std::f64::consts::PI;
@@ -14,9 +15,7 @@ fn run_spurs(options: &DynamicsOptions) -> Dynamics {
         follower: &follower,
         center_distance: 56.0,
         module: 2.0,
-        motion: &|a| 0.75 * a,
-        motion_derivative: &|_| 0.75,
-        driver_cycle: TAU,
+        motion: &EvenMotion { speed: 0.75, cycle: TAU },
         control: Control::unwatched(),
     };
     simulate(&DynamicsInput { contact, driver_teeth: 24 }, options).unwrap()
@@ -53,9 +52,7 @@ fn bad_options_are_refused() {
         follower: &[],
         center_distance: 1.0,
         module: 1.0,
-        motion: &|a| a,
-        motion_derivative: &|_| 1.0,
-        driver_cycle: TAU,
+        motion: &EvenMotion { speed: 1.0, cycle: TAU },
         control: Control::unwatched(),
     };
     let input = DynamicsInput { contact: pair, driver_teeth: 8 };

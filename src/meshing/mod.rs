@@ -21,7 +21,6 @@ mod train;
 mod verdict;
 mod world;
 
-pub use crate::assembly::{MotionError, SampledMotion};
 pub use contact::{
     Contact, ContactAnalysis, ContactError, ContactInput, ContactOptions, ContactPose, analyse,
     poses_at,

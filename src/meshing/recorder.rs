@@ -8,6 +8,7 @@ use super::dynamics::{
 use super::summary::WorstPlace;
 use super::touches::Touches;
 use super::world::World;
+use crate::gear::Gearing;
 use crate::geometry::Point;
 use crate::policy;
 use std::f64::consts::{PI, TAU};
@@ -35,7 +36,7 @@ impl Recorder {
             steps: Vec::new(),
             touches: Vec::new(),
             touch_stride: (options.steps_per_tooth / policy::TOUCHES_PER_TOOTH).max(1) as usize,
-            driver_cycle: pair.driver_cycle,
+            driver_cycle: pair.motion.cycle(),
             same_tooth: policy::SAME_TOOTH_DISTANCE * pair.module,
             load: options.load,
             work_in: 0.0,
@@ -91,7 +92,7 @@ impl Recorder {
         let half = (0.5 * window).round() as usize;
         let raw: Vec<f64> = steps.iter().map(|s| s.driver_torque).collect();
         let ideal: Vec<f64> =
-            steps.iter().map(|s| options.load * (pair.motion_derivative)(s.driver_angle)).collect();
+            steps.iter().map(|s| options.load * pair.motion.derivative(s.driver_angle)).collect();
         for (step, (torque, ideal)) in
             steps.iter_mut().zip(averaged(&raw, half).into_iter().zip(averaged(&ideal, half)))
         {
@@ -178,7 +179,8 @@ fn summarise(
         high - low
     };
     let local_pitch = |s: &Step| {
-        PI * pair.module * (1.0 + (pair.motion_derivative)(s.driver_angle)) / pair.center_distance
+        let speed = pair.motion.derivative(s.driver_angle);
+        PI * pair.module / Gearing::External.radii(pair.center_distance, speed).follower
     };
     let mean_pitch = pitch * last.psi.abs().max(f64::MIN_POSITIVE)
         / last.driver_angle.abs().max(f64::MIN_POSITIVE);

@@ -7,9 +7,9 @@ use super::dynamics::{
 };
 use super::recorder::averaged;
 use super::world::{World, WorldGear, WorldInput};
-use crate::assembly::{Assembly, MotionError, PlacedGear, SampledMotion};
+use crate::assembly::{Assembly, PlacedGear};
 use crate::control::{Control, StageName};
-use crate::gear::Side;
+use crate::gear::{Motion, MotionError, SampledMotion, Side};
 use crate::geometry::{self, Point};
 use crate::policy;
 use std::f64::consts::{PI, TAU};
@@ -120,6 +120,28 @@ impl Motions {
     }
 }
 
+/// How the second gear of a mesh turns with its first, by way of the train's driver.
+#[derive(Debug)]
+struct MeshMotion<'a> {
+    first: &'a SampledMotion,
+    second: &'a SampledMotion,
+}
+
+impl Motion for MeshMotion<'_> {
+    fn psi(&self, angle: f64) -> f64 {
+        self.second.psi(self.first.inverse(angle))
+    }
+
+    fn derivative(&self, angle: f64) -> f64 {
+        let driver_angle = self.first.inverse(angle);
+        self.second.derivative(driver_angle) / self.first.derivative(driver_angle)
+    }
+
+    fn cycle(&self) -> f64 {
+        self.first.psi(self.first.cycle())
+    }
+}
+
 /// Gears at the ends of the train: none hangs on them.
 fn leaves(assembly: &Assembly) -> Vec<usize> {
     let drives = |i: usize| {
@@ -202,20 +224,13 @@ fn mesh_poses(
     };
     let (driver, follower) = (seen(first), seen(second));
     let angles: Vec<f64> = driver_angles.iter().map(|&phi| motions.0[a].psi(phi)).collect();
-    // The mesh's own law, by way of the train's driver.
-    let motion = |angle: f64| motions.0[b].psi(motions.0[a].inverse(angle));
-    let derivative = |angle: f64| {
-        let phi = motions.0[a].inverse(angle);
-        motions.0[b].derivative(phi) / motions.0[a].derivative(phi)
-    };
+    let motion = MeshMotion { first: &motions.0[a], second: &motions.0[b] };
     let input = ContactInput {
         driver: &driver,
         follower: &follower,
         center_distance: line.norm(),
         module: module_of(first),
         motion: &motion,
-        motion_derivative: &derivative,
-        driver_cycle: motions.0[a].psi(motions.0[0].cycle()),
         control,
     };
     poses_at(&input, &ContactOptions::default(), &angles).map_err(|source| TrainRunError::Contact {
@@ -277,16 +292,7 @@ fn run(
         .enumerate()
         .map(|(i, placed)| {
             let motion = &motions.0[i];
-            let curve = greatest_acceleration(&ContactInput {
-                driver: &[],
-                follower: &[],
-                center_distance: 1.0,
-                module,
-                motion: &|phi| motion.psi(phi),
-                motion_derivative: &|phi| motion.derivative(phi),
-                driver_cycle: cycle,
-                control,
-            });
+            let curve = greatest_acceleration(motion);
             let real = inertia(&placed.gear.outline, options) / options.load;
             WorldGear {
                 outline: &placed.gear.outline,

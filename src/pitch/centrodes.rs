@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Transmission;
+use crate::gear::{Gearing, PitchPoint};
 use crate::geometry::{Point, rotate};
 
 /// Both pitch curves of a pair: a transmission function and a centre distance determine them.
@@ -17,21 +18,6 @@ pub struct Centrodes {
     pub center_distance: f64,
 }
 
-/// Radius of a pitch curve and its derivatives by the gear's own angle.
-struct Polar {
-    r: f64,
-    r1: f64,
-    r2: f64,
-}
-
-impl Polar {
-    /// Signed curvature of a curve run counter-clockwise, positive where convex.
-    fn curvature(&self) -> f64 {
-        let speed2 = self.r * self.r + self.r1 * self.r1;
-        (self.r * self.r + 2.0 * self.r1 * self.r1 - self.r * self.r2) / (speed2 * speed2.sqrt())
-    }
-}
-
 /// Nodes and weights of the four-point Gauss rule on -1..1, exact for polynomials up to degree seven.
 const GAUSS: [(f64, f64); 4] = [
     (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
@@ -41,17 +27,24 @@ const GAUSS: [(f64, f64); 4] = [
 ];
 
 impl Centrodes {
-    /// Distance from the driver's axis to the pitch point, `L psi' / (1 + psi')`.
+    /// The pitch point and the pitch curves there.
     #[must_use]
-    pub fn driver_radius(&self, phi: f64) -> f64 {
-        let p = self.transmission.derivative(phi);
-        self.center_distance * p / (1.0 + p)
+    pub fn pitch_point(&self, phi: f64) -> PitchPoint {
+        let t = &self.transmission;
+        let speed = [t.derivative(phi), t.second_derivative(phi), t.third_derivative(phi)];
+        Gearing::External.at(self.center_distance, speed)
     }
 
-    /// Distance from the follower's axis to the pitch point, `L / (1 + psi')`.
+    /// Distance from the driver's axis to the pitch point.
+    #[must_use]
+    pub fn driver_radius(&self, phi: f64) -> f64 {
+        Gearing::External.radii(self.center_distance, self.transmission.derivative(phi)).driver
+    }
+
+    /// Distance from the follower's axis to the pitch point.
     #[must_use]
     pub fn follower_radius(&self, phi: f64) -> f64 {
-        self.center_distance / (1.0 + self.transmission.derivative(phi))
+        Gearing::External.radii(self.center_distance, self.transmission.derivative(phi)).follower
     }
 
     /// The pitch point in the driver's frame.
@@ -74,10 +67,8 @@ impl Centrodes {
         self.slope(phi).atan()
     }
 
-    /// d ln r_D / d phi, the tangent of the lean.
     fn slope(&self, phi: f64) -> f64 {
-        let p = self.transmission.derivative(phi);
-        self.transmission.second_derivative(phi) / (p * (1.0 + p))
+        self.pitch_point(phi).slope()
     }
 
     /// Greatest lean without its sign, over the knots of psi' and the middles between them.
@@ -92,26 +83,14 @@ impl Centrodes {
     /// convex, in 1 / length. From the derivatives of psi, not from differences.
     #[must_use]
     pub fn curvatures(&self, phi: f64) -> (f64, f64) {
-        let l = self.center_distance;
-        let p = self.transmission.derivative(phi);
-        let p1 = self.transmission.second_derivative(phi);
-        let p2 = self.transmission.third_derivative(phi);
-        let q = 1.0 + p;
-        // d r_D / d phi = l p1 / q^2, and r_F = l - r_D.
-        let d1 = l * p1 / (q * q);
-        let d2 = l * (p2 - 2.0 * p1 * p1 / q) / (q * q);
-        let driver = Polar { r: l * p / q, r1: -d1, r2: d2 };
-        let follower = Polar { r: l / q, r1: -d1 / p, r2: (-d2 + d1 * p1 / p) / (p * p) };
-        (driver.curvature(), follower.curvature())
+        let curvatures = self.pitch_point(phi).curvatures();
+        (curvatures.driver, curvatures.follower)
     }
 
     /// Length of pitch curve that passes the pitch point for each radian of the driver; equal on both gears.
     #[must_use]
     pub fn arc_speed(&self, phi: f64) -> f64 {
-        let p = self.transmission.derivative(phi);
-        let q = 1.0 + p;
-        let radial = self.transmission.second_derivative(phi) / (q * q);
-        self.center_distance * (p / q).hypot(radial)
+        self.pitch_point(phi).arc_speed()
     }
 
     /// The driver's whole pitch curve in its own frame: `n` points, counter-clockwise, at even driver angles from local angle 0.

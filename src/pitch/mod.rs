@@ -2,7 +2,6 @@
 //! pitch curves (centrodes) that roll on each other.
 
 mod centrodes;
-mod cyclic;
 mod polar;
 mod transmission;
 
@@ -10,5 +9,4 @@ pub use centrodes::Centrodes;
 pub use polar::{PolarCurve, PolarError};
 pub use transmission::{Transmission, TransmissionError};
 
-pub(crate) use cyclic::solve_cyclic;
 pub(crate) use polar::{center_distance, driver_law, follower_law};

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::cyclic::solve_cyclic;
+use crate::gear::Motion;
+use crate::geometry::{gcd, solve_cyclic};
 use crate::policy;
 
 /// Why samples do not make a transmission function.
@@ -54,6 +55,20 @@ pub struct Transmission {
     phase: f64,
     psi_at_phase: f64,
     samples: Vec<f64>,
+}
+
+impl Motion for Transmission {
+    fn psi(&self, driver_angle: f64) -> f64 {
+        self.psi(driver_angle)
+    }
+
+    fn derivative(&self, driver_angle: f64) -> f64 {
+        self.derivative(driver_angle)
+    }
+
+    fn cycle(&self) -> f64 {
+        self.driver_period() * f64::from(self.cycle_periods())
+    }
 }
 
 /// The periodic spline of psi' and its running integral.
@@ -155,6 +170,12 @@ impl Transmission {
     #[must_use]
     pub fn follower_period(&self) -> f64 {
         self.spline.rise
+    }
+
+    /// Periods after which both gears are back where they began.
+    #[must_use]
+    pub fn cycle_periods(&self) -> u32 {
+        self.driver_fold / gcd(self.driver_fold, self.follower_fold) * self.follower_fold
     }
 
     /// Follower angle at driver angle `phi`; psi(0) = 0.

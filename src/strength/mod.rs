@@ -142,7 +142,8 @@ pub fn strength(loaded: &Loaded<'_>) -> Strength {
     for i in 0..n {
         let phi = i as f64 * step;
         let p = motion.derivative(phi);
-        let lost = load.friction * (1.0 + p) * slide / (centrodes.driver_radius(phi) * arm(phi));
+        let at = centrodes.pitch_point(phi);
+        let lost = load.friction * at.relative_turn() * slide / (at.radii().driver * arm(phi));
         given += p;
         taken += p * (1.0 + lost);
     }

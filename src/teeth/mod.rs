@@ -19,7 +19,7 @@ pub use wave::{regular_wave_pair, wave_pair};
 use crate::control::{Cancelled, Control};
 use crate::gear::Side;
 use crate::geometry::Point;
-use crate::pitch::{Centrodes, Transmission};
+use crate::pitch::Centrodes;
 use crate::policy;
 use layout::{Layout, Rack};
 use profile::gear_profile;
@@ -226,19 +226,6 @@ pub fn carved_follower(
     )
     .ok()??;
     Some(carved.outline)
-}
-
-/// Periods of the motion after which both gears are back where they began.
-#[must_use]
-pub fn cycle_periods(transmission: &Transmission) -> u32 {
-    let (a, b) = (transmission.driver_fold(), transmission.follower_fold());
-    let gcd = |mut a: u32, mut b: u32| {
-        while b != 0 {
-            (a, b) = (b, a % b);
-        }
-        a
-    };
-    a / gcd(a, b) * b
 }
 
 #[cfg(test)]

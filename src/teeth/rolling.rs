@@ -5,7 +5,7 @@
 //! counter-clockwise. All frames follow `Centrodes`: world x axis along the
 //! line of centres, driver axis at the origin, follower axis at (L, 0).
 
-use crate::gear::Side;
+use crate::gear::{Gearing, Side};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::pitch::Centrodes;
 use crate::policy;
@@ -39,7 +39,7 @@ impl Instant {
             s: 0.0,
             driver_turn: phi.sin_cos(),
             follower_turn: psi.sin_cos(),
-            pitch: Point::new(center_distance * speed / (1.0 + speed), 0.0),
+            pitch: Point::new(Gearing::External.at(center_distance, [speed, 0.0, 0.0]).x(), 0.0),
             tangent: Vector::new(0.0, -1.0),
             normal: Vector::new(1.0, 0.0),
             curvatures: (0.0, 0.0),
@@ -121,18 +121,10 @@ struct Knot {
 
 impl Knot {
     fn new(centrodes: &Centrodes, s: f64, angle: f64) -> Self {
-        let t = &centrodes.transmission;
-        let (p, p1, p2) =
-            (t.derivative(angle), t.second_derivative(angle), t.third_derivative(angle));
-        let q = 1.0 + p;
-        // The pitch point's velocity across and along the line of centres, per unit of centre
-        // distance and driver angle, and how each changes.
-        let (across, along) = (p / q, p1 / (q * q));
-        let (across1, along1) = (p1 / (q * q), (p2 - 2.0 * p1 * p1 / q) / (q * q));
-        let speed = across.hypot(along);
-        let speed1 = (across * across1 + along * along1) / speed;
-        let slope = 1.0 / (speed * centrodes.center_distance);
-        Self { s, angle, slope, bend: -slope * slope * speed1 / speed }
+        let pitch_point = centrodes.pitch_point(angle);
+        let speed = pitch_point.arc_speed();
+        let slope = 1.0 / speed;
+        Self { s, angle, slope, bend: -slope * slope * slope * pitch_point.arc_acceleration() }
     }
 }
 
@@ -183,7 +175,7 @@ impl<'a> Rolling<'a> {
 
     /// Periods of the motion in one whole cycle of both gears.
     pub(crate) fn cycle_periods(&self) -> u32 {
-        super::cycle_periods(&self.centrodes.transmission)
+        self.centrodes.transmission.cycle_periods()
     }
 
     /// Driver angle at arc length `s`, any real.

@@ -21,15 +21,12 @@ fn ellipse(e: f64) -> impl Fn(f64) -> f64 {
 
 fn contact(centrodes: &Centrodes, pair: &ToothedPair, clearance: f64) -> ContactAnalysis {
     let [driver, follower] = [&pair.driver, &pair.follower].map(|p| p.inset(clearance).unwrap());
-    let t = &centrodes.transmission;
     let input = ContactInput {
         driver: &driver.points,
         follower: &follower.points,
         center_distance: centrodes.center_distance,
         module: pair.module,
-        motion: &|phi| t.psi(phi),
-        motion_derivative: &|phi| t.derivative(phi),
-        driver_cycle: t.driver_period() * f64::from(cycle_periods(t)),
+        motion: &centrodes.transmission,
         control: Control::unwatched(),
     };
     analyse(&input, &ContactOptions { poses: 300, ..ContactOptions::default() }).unwrap()

@@ -3,7 +3,7 @@
 use super::carve::carve;
 use super::profile::{EdgeKind, Profile};
 use super::rolling::Rolling;
-use super::{TeethError, TeethOptions, ToothedPair, cycle_periods};
+use super::{TeethError, TeethOptions, ToothedPair};
 use crate::gear::Side;
 use crate::geometry::{Point, rotate};
 use crate::pitch::Centrodes;
@@ -100,10 +100,10 @@ fn waves(
         &driver.points,
         &blank.points,
         (
-            rolling.period() * f64::from(cycle_periods(&centrodes.transmission)),
+            rolling.period() * f64::from(centrodes.transmission.cycle_periods()),
             policy::CARVE_INSTANTS_PER_TOOTH
                 * teeth
-                * cycle_periods(&centrodes.transmission) as usize,
+                * centrodes.transmission.cycle_periods() as usize,
         ),
         policy::CARVE_DEPTH * module,
         false,

@@ -16,6 +16,7 @@ use super::field::Field;
 use super::law::{Basis, Sensitivity, Series};
 use crate::control::Control;
 use crate::fit::Ratio;
+use crate::gear::Gearing;
 use crate::geometry::{Point, Vector};
 
 /// Sharpness of the soft maximum of psi', over the mean of psi'.
@@ -94,25 +95,23 @@ impl<'a> Cost<'a> {
         if wish.balance > 0.0 {
             // Clockwise in the driver's own angle.
             let gear = Turned { field: self.fields[0], fold: fd, sense: -1.0, share: wish.balance };
-            let radii = series.speed.iter().map(|p| p / (1.0 + p));
+            let radii = series.speed.iter().map(|&p| Gearing::External.radii(1.0, p).driver);
             let angles = (0..n).map(|i| -period * i as f64 / n as f64);
             let (j, g) = gear.unlikeness(&x[..3], radii.zip(angles), &mut gradient[..3]);
             value += j;
             for (i, (radius, _)) in g.iter().enumerate() {
-                let q = 1.0 + series.speed[i];
-                by.speed[i] += radius / (q * q);
+                by.speed[i] += radius * steepness(series.speed[i]);
             }
         }
         if wish.balance < 1.0 {
             let share = 1.0 - wish.balance;
             let gear = Turned { field: self.fields[1], fold: ff, sense: 1.0, share };
-            let radii = series.speed.iter().map(|p| 1.0 / (1.0 + p));
+            let radii = series.speed.iter().map(|&p| Gearing::External.radii(1.0, p).follower);
             let angles = series.turn.iter().map(|psi| PI + psi);
             let (j, g) = gear.unlikeness(&x[3..6], radii.zip(angles), &mut gradient[3..6]);
             value += j;
             for (i, (radius, angle)) in g.iter().enumerate() {
-                let q = 1.0 + series.speed[i];
-                by.speed[i] -= radius / (q * q);
+                by.speed[i] -= radius * steepness(series.speed[i]);
                 by.turn[i] += angle;
             }
         }
@@ -158,13 +157,15 @@ impl<'a> Cost<'a> {
                 value += weight * over * over;
                 by.speed[i] += 2.0 * weight * over / self.wish.mean();
             }
-            let lean = v / (1.0 + p);
+            // v = d ln psi' / d phi, of which d ln r_D / d phi is the share r_F of L.
+            let share = Gearing::External.radii(1.0, p).follower;
+            let lean = v * share;
             let over = lean.abs() - self.wish.steepest;
             if over > 0.0 {
                 value += weight * over * over;
                 let by_lean = 2.0 * weight * over * lean.signum();
-                by.slope[i] += by_lean / (1.0 + p);
-                by.speed[i] -= by_lean * lean / (1.0 + p);
+                by.slope[i] += by_lean * share;
+                by.speed[i] -= by_lean * lean * share;
             }
         }
         value
@@ -318,4 +319,9 @@ impl Turned<'_> {
         }
         (self.share * unlike, out)
     }
+}
+
+/// Derivative of the driver's pitch radius by psi', for a centre distance of 1; the follower's is its negative.
+fn steepness(speed: f64) -> f64 {
+    Gearing::External.radii(1.0, speed).follower.powi(2)
 }

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::cost::Wish;
 use crate::fit::laws::directions;
 use crate::fit::objective::Problem;
+use crate::gear::Gearing;
 use crate::geometry::Point;
 use crate::pitch::{PolarCurve, center_distance};
 
@@ -130,8 +131,8 @@ fn seat(
         .iter()
         .map(|&(di, dj)| {
             let speed = wish.mean() * dj as f64 / di as f64;
-            let (radius, cells) =
-                if gear == 0 { (speed / (1.0 + speed), di) } else { (1.0 / (1.0 + speed), dj) };
+            let radii = Gearing::External.radii(1.0, speed);
+            let (radius, cells) = if gear == 0 { (radii.driver, di) } else { (radii.follower, dj) };
             let scale = share * cells as f64 / (mean * (n * fold as usize) as f64);
             // The follower's go twice round, so that a path from any cell reads on.
             let ends = if gear == 0 { n + 1 } else { 2 * n + 1 };

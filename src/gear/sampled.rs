@@ -1,7 +1,7 @@
 //! A motion known by samples, as files carry it.
 
-use super::Assembly;
-use crate::pitch::solve_cyclic;
+use super::Motion;
+use crate::geometry::solve_cyclic;
 use crate::policy;
 
 /// psi and psi' through samples of one whole cycle, repeated for ever: a periodic cubic spline.
@@ -10,6 +10,8 @@ pub struct SampledMotion {
     driver: Vec<f64>,
     follower: Vec<f64>,
     slope: Vec<f64>,
+    /// How many times the samples make one whole cycle.
+    repeats: u32,
 }
 
 /// Why samples make no motion.
@@ -65,24 +67,23 @@ impl SampledMotion {
             return Err(MotionError::NotIncreasing { index: 0 });
         }
         let slope = slopes(driver, follower);
-        Ok(Self { driver: driver.to_vec(), follower: follower.to_vec(), slope })
+        Ok(Self { driver: driver.to_vec(), follower: follower.to_vec(), slope, repeats: 1 })
     }
 
-    /// The motion of a pair.
-    ///
-    /// # Errors
-    /// See [`MotionError`].
-    pub fn of_pair(assembly: &Assembly) -> Result<Self, MotionError> {
-        let [_, follower] = assembly.gears.as_slice() else {
-            return Err(MotionError::NotAPair { count: assembly.gears.len() });
-        };
-        let angles: Vec<f64> = follower.angle.iter().map(|a| -a).collect();
-        Self::new(&assembly.driver_angle, &angles)
+    /// The same motion, of which `count` cycles of the samples make a whole cycle of both gears.
+    #[must_use]
+    pub fn repeated(self, count: u32) -> Self {
+        Self { repeats: self.repeats * count.max(1), ..self }
     }
 
     /// Driver angle of one whole cycle, radians.
     #[must_use]
     pub fn cycle(&self) -> f64 {
+        f64::from(self.repeats) * self.span()
+    }
+
+    /// Driver angle that the samples cover.
+    fn span(&self) -> f64 {
         self.driver[self.driver.len() - 1] - self.driver[0]
     }
 
@@ -139,15 +140,29 @@ impl SampledMotion {
             }
             guess = next;
         }
-        guess + turns * self.cycle()
+        guess + turns * self.span()
     }
 
     /// Interval, place in it (0 to 1) and whole cycles before it.
     fn place(&self, driver_angle: f64) -> (usize, f64, f64) {
-        let turns = ((driver_angle - self.driver[0]) / self.cycle()).floor();
-        let at = driver_angle - turns * self.cycle();
+        let turns = ((driver_angle - self.driver[0]) / self.span()).floor();
+        let at = driver_angle - turns * self.span();
         let i = self.driver.partition_point(|&d| d <= at).clamp(1, self.driver.len() - 1) - 1;
         (i, (at - self.driver[i]) / (self.driver[i + 1] - self.driver[i]), turns)
+    }
+}
+
+impl Motion for SampledMotion {
+    fn psi(&self, driver_angle: f64) -> f64 {
+        self.psi(driver_angle)
+    }
+
+    fn derivative(&self, driver_angle: f64) -> f64 {
+        self.derivative(driver_angle)
+    }
+
+    fn cycle(&self) -> f64 {
+        self.cycle()
     }
 }
 
@@ -180,6 +195,18 @@ mod tests {
             assert!((motion.psi(a) - psi(a)).abs() < 1e-8, "{a}");
             assert!((motion.derivative(a) - (1.0 + 0.2 * a.cos())).abs() < 1e-6, "{a}");
             assert!((motion.inverse(motion.psi(a)) - a).abs() < 1e-12, "{a}");
+        }
+    }
+
+    #[test]
+    fn a_repeated_motion_differs_in_its_cycle_alone() {
+        let driver = [0.0, 1.0, 2.0, 3.0, 4.0];
+        let once = SampledMotion::new(&driver, &[0.0, 0.4, 1.1, 1.4, 2.0]).unwrap();
+        let thrice = once.clone().repeated(3);
+        assert_eq!((once.cycle(), thrice.cycle()), (4.0, 12.0));
+        for a in [-5.0, 0.3, 3.9, 11.0] {
+            assert_eq!(thrice.psi(a), once.psi(a));
+            assert!((thrice.inverse(once.psi(a)) - a).abs() < 1e-12);
         }
     }
 
