@@ -1,6 +1,8 @@
 //! The `centrode` command: parse, run, report one error in one place.
 
 mod cli;
+#[cfg(feature = "studio")]
+mod studio;
 
 use std::process::ExitCode;
 
@@ -22,7 +24,7 @@ fn main() -> ExitCode {
 }
 
 /// What failed and why, from the outermost to the innermost cause; a cause that has been quoted is not said again.
-fn told(error: &anyhow::Error) -> String {
+pub(crate) fn told(error: &anyhow::Error) -> String {
     error.chain().map(ToString::to_string).fold(String::new(), |said, cause| {
         if said.is_empty() {
             cause

@@ -47,6 +47,9 @@ pub(crate) enum Command {
     Simulate(Box<SimulateArgs>),
     /// Write more formats of a pair that `design` made before
     Export(ExportCommand),
+    /// Design in the browser: a page on this machine on which the gears follow every change
+    #[cfg(feature = "studio")]
+    Studio(super::studio::StudioArgs),
     /// Put many gears on their axles: a pair repeated, or a tree from a file
     Train(Box<super::train::TrainArgs>),
     /// List the built-in shapes

@@ -354,7 +354,8 @@ impl Maker<'_> {
             };
             write_parts(folder, Parts { assembly: &made.assembly, meshes: &meshes }, formats)?;
             if formats.wants(Format::Html) {
-                let page = report_html(&made.assembly, &report::page(made));
+                let page =
+                    report_html(&made.assembly, &report::page(made, report::own_command_line()));
                 write_text(folder, "report.html", &page)?;
             }
         }

@@ -148,22 +148,25 @@ impl Making<'_> {
         inputs: Inputs<'_>,
     ) -> anyhow::Result<Vec<PathBuf>> {
         let staging = Staging::new(self.output)?;
-        let files = write_into(staging.path(), made, meshes, self.formats)
-            .map_err(|error| staging.told_of_the_final_place(error))?;
+        let files =
+            write_into(staging.path(), made, meshes, self.formats, report::own_command_line())
+                .map_err(|error| staging.told_of_the_final_place(error))?;
         Ok(staging.publish_beside(&files, inputs.paths, inputs.what)?)
     }
 }
 
-fn write_into(
+/// Writes everything asked for of a design into `folder`; `command` makes it again.
+pub(super) fn write_into(
     folder: &Path,
     made: &Design,
     meshes: &[Mesh],
     formats: &ExportArgs,
+    command: String,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let parts = Parts { assembly: &made.assembly, meshes };
     let mut files = write_parts(folder, parts, formats)?;
     if formats.wants(Format::Html) {
-        let page = report_html(&made.assembly, &report::page(made));
+        let page = report_html(&made.assembly, &report::page(made, command));
         files.push(write_text(folder, "report.html", &page)?);
     }
     if let Some(proof) = &made.proof {
@@ -179,12 +182,16 @@ fn write_into(
 impl ShapeArgs {
     /// Reads a drawing.
     pub(crate) fn read(&self, source: &str) -> anyhow::Result<Shape> {
-        let options = LoadOptions {
+        Ok(load(source, &self.options())?)
+    }
+
+    /// As the library takes them.
+    pub(super) fn options(&self) -> LoadOptions {
+        LoadOptions {
             threshold: self.threshold,
             smoothing: self.smoothing.map_or(Smoothing::Auto, Smoothing::Fixed),
             ..LoadOptions::default()
-        };
-        Ok(load(source, &options)?)
+        }
     }
 
     /// Says so when a threshold was given for drawings of which none is an image.

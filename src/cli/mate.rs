@@ -21,8 +21,22 @@ pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
     args.reading.warn_of_no_image(paths, &progress);
     let inputs = Inputs { paths: &paths, what: "drawing" };
     making.check_place(inputs)?;
-    let options = making.options(args.ratio);
-    let options = DesignOptions {
+    let options = options(args);
+    progress.doing(format!("making the mate of {}", shape.name));
+    let (low, high) = shape.outline.bounds();
+    let made = mate(&shape, &options).with_context(|| {
+        format!(
+            "{} (drawn from {:.4},{:.4} to {:.4},{:.4})",
+            shape.name, low.x, low.y, high.x, high.y
+        )
+    })?;
+    making.deliver(&made, inputs, &progress, start)
+}
+
+/// As the library takes them.
+pub(super) fn options(args: &MateArgs) -> DesignOptions {
+    let options = args.pair.making().options(args.ratio);
+    DesignOptions {
         fit: FitOptions {
             weight: args.torque_weight,
             limits: Limits {
@@ -34,14 +48,5 @@ pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
             ..options.fit
         },
         ..options
-    };
-    progress.doing(format!("making the mate of {}", shape.name));
-    let (low, high) = shape.outline.bounds();
-    let made = mate(&shape, &options).with_context(|| {
-        format!(
-            "{} (drawn from {:.4},{:.4} to {:.4},{:.4})",
-            shape.name, low.x, low.y, high.x, high.y
-        )
-    })?;
-    making.deliver(&made, inputs, &progress, start)
+    }
 }

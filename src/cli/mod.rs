@@ -18,6 +18,8 @@ mod scene;
 mod shapes;
 mod shell;
 mod simulate;
+#[cfg(feature = "studio")]
+pub(crate) mod studio;
 mod train;
 mod units;
 mod version;
@@ -78,6 +80,8 @@ fn carry_out(cli: &Cli, words: &[OsString]) -> anyhow::Result<Outcome> {
         Command::Check(args) => check::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Export(args) => export::run(args),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::run(args),
         Command::Train(args) => train::run(args),
         Command::Shapes(args) => shapes::run(args),
         Command::Gallery(args) => gallery::run(args, words),

@@ -28,11 +28,21 @@ pub(crate) fn run(args: &MotionArgs) -> anyhow::Result<Outcome> {
     let paths: Vec<&str> = said.filter(|text| is_table(Path::new(text))).collect();
     let inputs = Inputs { paths: &paths, what: "table" };
     making.check_place(inputs)?;
-    let sector = segment(args).filter(|_| args.sector);
-    let options = DesignOptions { sector, ..making.options(args.ratio) };
+    let options = options(args);
     progress.doing("laying teeth on the pitch curves");
     let made = from_motion(transmission, names, [None, None], &options)?;
     making.deliver(&made, inputs, &progress, start)
+}
+
+/// As the library takes them.
+pub(super) fn options(args: &MotionArgs) -> DesignOptions {
+    let sector = segment(args).filter(|_| args.sector);
+    DesignOptions { sector, ..args.pair.making().options(args.ratio) }
+}
+
+/// Whether the motion stands in a file.
+pub(super) fn reads_a_table(args: &MotionArgs) -> bool {
+    args.law.iter().chain(&args.centrode).any(|text| is_table(Path::new(text)))
 }
 
 fn segment(args: &MotionArgs) -> Option<Segment> {
@@ -40,7 +50,7 @@ fn segment(args: &MotionArgs) -> Option<Segment> {
 }
 
 /// The motion, and what the gears are called.
-fn motion(args: &MotionArgs) -> anyhow::Result<(Transmission, [String; 2])> {
+pub(super) fn motion(args: &MotionArgs) -> anyhow::Result<(Transmission, [String; 2])> {
     let with = |quantity| LawOptions { ratio: args.ratio, quantity, normalise: args.normalise };
     let (text, quantity, sign) = match (&args.law, &args.centrode, &args.preset) {
         (Some(law), ..) if args.psi => (law, Quantity::Angle, "psi"),

@@ -171,7 +171,7 @@ fn bore(made: &Design) -> Option<String> {
 }
 
 /// The page's text and plots.
-pub(crate) fn page(made: &Design) -> ReportData {
+pub(crate) fn page(made: &Design, command: String) -> ReportData {
     let verdict = match (made.is_sound(), made.warnings.is_empty()) {
         (false, _) => Verdict::Unsound,
         (true, true) => Verdict::Good,
@@ -194,7 +194,7 @@ pub(crate) fn page(made: &Design) -> ReportData {
         .collect();
     ReportData {
         title: format!("{} and {}", made.names[0], made.names[1]),
-        command: command_line(),
+        command,
         made_by: concat!("centrode ", env!("CARGO_PKG_VERSION")).to_owned(),
         verdict,
         summary,
@@ -224,9 +224,14 @@ pub(crate) fn page(made: &Design) -> ReportData {
     }
 }
 
+/// The command line of this process, see [`command_line`].
+pub(super) fn own_command_line() -> String {
+    command_line(std::env::args_os().skip(1).map(|w| w.to_string_lossy().into_owned()))
+}
+
 /// The command that makes this again, without the paths of the program and of the folder, which are not
 /// part of the design.
-fn command_line() -> String {
+pub(super) fn command_line(mut given: impl Iterator<Item = String>) -> String {
     let quoted = |word: String| {
         if word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./:=".contains(c)) {
             word
@@ -234,7 +239,6 @@ fn command_line() -> String {
             format!("'{}'", word.replace('\'', "'\\''"))
         }
     };
-    let mut given = std::env::args_os().skip(1).map(|w| w.to_string_lossy().into_owned());
     let mut words = Vec::new();
     while let Some(word) = given.next() {
         match word.as_str() {

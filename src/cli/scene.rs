@@ -19,7 +19,7 @@ const TABLES: [(&str, &str); 3] =
     [("Reading the shapes", "shapes"), ("Fitting", "fit"), ("Files", "export")];
 
 /// Commands that no scene can name.
-const NO_SCENE: [&str; 2] = ["run", "help"];
+const NO_SCENE: [&str; 3] = ["run", "studio", "help"];
 
 /// Options that say nothing of the result.
 const LEFT_OUT: [&str; 3] = ["help", "version", "save_scene"];
@@ -157,11 +157,21 @@ pub(crate) fn check_save(path: &Path, words: &[OsString]) -> anyhow::Result<()> 
 
 /// Writes the scene that makes `words` again.
 pub(crate) fn save(path: &Path, words: &[OsString]) -> anyhow::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let text = text(words, folder)?;
+    if !folder.as_os_str().is_empty() {
+        prepare_folder(folder).map_err(|e| told_of(SAVE, e))?;
+    }
+    write_atomically(path, |out| std::io::Write::write_all(out, text.as_bytes()))
+        .map_err(|e| told_of(SAVE, e))
+}
+
+/// The scene that makes `words` again, as a file in `folder` says it.
+pub(super) fn text(words: &[OsString], folder: &Path) -> anyhow::Result<String> {
     let top = Cli::command();
     let matches = Cli::command().try_get_matches_from(words)?;
     let Some((name, given)) = matches.subcommand() else { bail!("there is no command to save") };
     let Some(known) = top.find_subcommand(name) else { bail!("there is no command {name}") };
-    let folder = path.parent().unwrap_or(Path::new(""));
     let settings: Vec<Setting> = given_settings(known, given)
         .into_iter()
         .filter(|s| s.key != OUTPUT)
@@ -173,12 +183,7 @@ pub(crate) fn save(path: &Path, words: &[OsString]) -> anyhow::Result<()> {
             setting
         })
         .collect();
-    let text = write(name, &keys(known), &settings);
-    if !folder.as_os_str().is_empty() {
-        prepare_folder(folder).map_err(|e| told_of(SAVE, e))?;
-    }
-    write_atomically(path, |out| std::io::Write::write_all(out, text.as_bytes()))
-        .map_err(|e| told_of(SAVE, e))
+    Ok(write(name, &keys(known), &settings))
 }
 
 /// What was said on the command line itself, defaults left out, in the order of the help.

@@ -1,0 +1,168 @@
+//! `centrode studio`: a page on this machine on which a pair of gears follows every change.
+//!
+//! The server is bound to loopback, answers only its own page ([`guard`]), reads no file but those that the command
+//! line names ([`drawings`]) and writes none outside the output folder ([`away`]). A tab sends whole states
+//! ([`protocol`]); a thread of its own makes the newest one ([`tab`], [`engine`]).
+
+mod assets;
+mod away;
+mod controls;
+mod drawings;
+mod engine;
+mod findings;
+mod guard;
+mod protocol;
+mod server;
+mod tab;
+mod wire;
+mod words;
+
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+
+use anyhow::{Context, anyhow};
+use centrode::outline::library;
+use tokio::net::TcpListener;
+use tokio::sync::Semaphore;
+
+use crate::cli::studio::StudioArgs;
+use drawings::Drawings;
+use engine::Finished;
+use guard::Guard;
+use protocol::DrawingRef;
+
+/// The port that is tried first, and how many after it.
+const PORT: u16 = 4827;
+const PORTS: u16 = 20;
+/// Tabs at a time: each has a thread and keeps a pair.
+const TABS: usize = 24;
+/// Holds the token between two runs of the studio in one folder, so that a page that is open finds it again.
+const TOKEN_FILE: &str = ".centrode-studio";
+
+/// What all requests share.
+#[derive(Debug)]
+struct App {
+    guard: Guard,
+    drawings: Drawings,
+    /// Drawings that the command line names.
+    given: Vec<DrawingRef>,
+    output: PathBuf,
+    tabs: Arc<Semaphore>,
+    /// The pairs that were proven last, for whoever takes their files away.
+    finished: Finished,
+    /// Files are made for one page at a time: solids take all processors anyway.
+    exports: Semaphore,
+}
+
+/// Serves the page until it is interrupted.
+pub(crate) fn run(args: &StudioArgs) -> anyhow::Result<()> {
+    centrode::export::check_folder(&args.output)?;
+    let drawings = Drawings::default();
+    let given = args.files.iter().map(|f| given(f, &drawings)).collect::<anyhow::Result<_>>()?;
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(2)
+        .enable_all()
+        .build()
+        .context("the server cannot be started")?;
+    runtime.block_on(async {
+        let listener = listen(args.port).await?;
+        let port = listener.local_addr()?.port();
+        let guard = Guard::new(token(&args.output)?, port);
+        let app = Arc::new(App {
+            guard,
+            drawings,
+            given,
+            output: args.output.clone(),
+            finished: Finished::default(),
+            tabs: Arc::new(Semaphore::new(TABS)),
+            exports: Semaphore::new(1),
+        });
+        let address = app.guard.address();
+        println!("{address}");
+        eprintln!("Centrode Studio is at the address above; Ctrl-C ends it");
+        if !args.no_open {
+            open(&address);
+        }
+        tokio::select! {
+            () = server::serve(listener, Arc::clone(&app)) => {}
+            _ = tokio::signal::ctrl_c() => {}
+        }
+        Ok::<_, anyhow::Error>(())
+    })?;
+    // Work that is under way is of no use to anybody.
+    runtime.shutdown_background();
+    Ok(())
+}
+
+/// A drawing of the command line: a file, read now, or a built-in name.
+fn given(source: &str, drawings: &Drawings) -> anyhow::Result<DrawingRef> {
+    let path = Path::new(source);
+    if library::svg(source).is_some() && !path.is_file() {
+        return Ok(DrawingRef { name: source.to_owned(), id: None });
+    }
+    let (name, bytes) = drawings::from_file(path)?;
+    let id = Some(drawings.keep(&name, &bytes));
+    Ok(DrawingRef { name, id })
+}
+
+async fn listen(port: Option<u16>) -> anyhow::Result<TcpListener> {
+    let at = |port| TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
+    if let Some(port) = port {
+        return at(port).await.map_err(|e| {
+            anyhow!("port {port} cannot be used ({e}); name another with --port, or leave it out")
+        });
+    }
+    for port in PORT..PORT + PORTS {
+        if let Ok(listener) = at(port).await {
+            return Ok(listener);
+        }
+    }
+    at(0).await.context("no port of this machine can be used")
+}
+
+/// The token of an earlier run in the same folder, or a new one. Kept where a folder is there to keep it in.
+fn token(output: &Path) -> anyhow::Result<String> {
+    let path = output.join(TOKEN_FILE);
+    if let Ok(text) = std::fs::read_to_string(&path)
+        && guard::is_token(text.trim())
+    {
+        return Ok(text.trim().to_owned());
+    }
+    let token = guard::random_token()?;
+    // Without it a page only has to be opened anew.
+    if output.is_dir() {
+        let mut options = std::fs::OpenOptions::new();
+        options.write(true).create(true).truncate(true);
+        #[cfg(unix)]
+        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+        let _ = options
+            .open(&path)
+            .and_then(|mut file| std::io::Write::write_all(&mut file, token.as_bytes()));
+    }
+    Ok(token)
+}
+
+/// Opens the page in the browser of this desktop, if there is one.
+fn open(address: &str) {
+    let desktop = |name| std::env::var_os(name).is_some_and(|v| !v.is_empty());
+    let opener: &[&str] = if cfg!(target_os = "macos") {
+        &["open"]
+    } else if cfg!(windows) {
+        &["cmd", "/C", "start", ""]
+    } else if desktop("DISPLAY") || desktop("WAYLAND_DISPLAY") {
+        &["xdg-open"]
+    } else {
+        return;
+    };
+    let quiet = Stdio::null;
+    // The address is printed; whoever has no browser opens it by hand.
+    let _ = Command::new(opener[0])
+        .args(&opener[1..])
+        .arg(address)
+        .stdin(quiet())
+        .stdout(quiet())
+        .stderr(quiet())
+        .spawn();
+}
