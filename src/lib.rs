@@ -35,11 +35,15 @@
 //! # Ok::<(), centrode::law::LawError>(())
 //! ```
 //!
-//! Lengths are mm, angles radians, torques N mm. Nothing here prints, and only [`input::load`], [`export`],
+//! Lengths are mm, angles radians, torques N mm. Nothing but [`cli`] prints, and only [`cli`], [`input::load`], [`export`],
 //! [`design::SavedDesign::read`] and [`design::read_train`] touch files.
+
+// The command line is written as any other program on the library is.
+extern crate self as centrode;
 
 pub mod assembly;
 pub mod check;
+pub mod cli;
 pub mod control;
 pub mod design;
 pub mod diagnose;
@@ -58,5 +62,7 @@ pub mod report;
 pub mod scene;
 pub mod solid;
 pub mod strength;
+#[cfg(feature = "studio")]
+mod studio;
 pub mod teeth;
 mod wording;

@@ -1,4 +1,6 @@
-//! Arguments, progress and exit codes; everything else is the library's.
+//! The command line: arguments, progress and exit codes; everything else is in the rooms above.
+//!
+//! [`main`] is the whole program: parse, run, report one error in one place.
 
 mod args;
 mod check;
@@ -28,6 +30,7 @@ pub(crate) use args::Cli;
 use args::Command;
 use centrode::control::Control;
 use centrode::policy;
+use clap::Parser;
 use clap::error::ErrorKind;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -55,8 +58,39 @@ impl Outcome {
     }
 }
 
+/// Parses the command line of this process, carries it out, and reports what failed in one line on standard error.
+///
+/// Returns 0 when all is well, 1 for a result that was made but is not sound, 2 for bad input.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refused(&error),
+    };
+    match run(&cli) {
+        Ok(outcome) => outcome.exit_code(),
+        Err(error) => {
+            eprintln!("error: {}", plain(&told(&error)));
+            ExitCode::from(BAD_INPUT)
+        }
+    }
+}
+
+/// What failed and why, from the outermost to the innermost cause; a cause that has been quoted is not said again.
+pub(crate) fn told(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |said, cause| {
+        if said.is_empty() {
+            cause
+        } else if said.contains(&cause) {
+            said
+        } else {
+            format!("{said}: {cause}")
+        }
+    })
+}
+
 /// Carries out the command line of this process.
-pub(crate) fn run(cli: &Cli) -> anyhow::Result<Outcome> {
+fn run(cli: &Cli) -> anyhow::Result<Outcome> {
     if cli.quiet {
         progress::silence();
     }

@@ -66,7 +66,7 @@ pub(crate) fn plan(words: &[String]) -> Result<Plan, Blamed> {
     let cli = Cli::try_parse_from(words).map_err(|error| blamed(&error))?;
     let failed = |option: &str, error: anyhow::Error| Blamed {
         option: Some(option.to_owned()),
-        text: crate::told(&error),
+        text: crate::cli::told(&error),
     };
     let (origin, load, options) = match &cli.command {
         Command::Design(args) => {

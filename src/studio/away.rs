@@ -76,7 +76,7 @@ fn carried_out(app: &App, order: &Order) -> Result<Response, String> {
     let made = Engine::default()
         .finished((&app.drawings, &app.finished), &order.state, &plan)
         .map_err(said)?;
-    let told = |error: anyhow::Error| crate::told(&error);
+    let told = |error: anyhow::Error| crate::cli::told(&error);
     let (staging, files) = plan.files(&made, &given, &app.output).map_err(told)?;
     if order.place == Place::Folder {
         let published = staging.publish(&files).map_err(|e| e.to_string())?;
