@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Read pair.step back with OpenCascade and judge it (pip install cadquery-ocp).
 
-Two named, coloured parts in an assembly at the right distance; each one valid closed solid; volume within 1e-4 of
-(outline - bore - other holes) x thickness and the hub; fewer than 12 faces a tooth; under 3 MB for 32 teeth.
+Named, coloured parts in an assembly at the right distance, two gears and what stands beside them; each one valid closed
+solid; volume within 1e-4 of (outline - bore - other holes) x thickness, hub, letters and marks, or of the plate with its posts
+and pockets; fewer than 12 faces a tooth besides letters; under 3 MB for 32 teeth. With --chamfer the upper edges of each gear
+are bevelled by 0.3 mm in OpenCascade, which must give a valid solid.
 
 Exit 0 when all holds, 1 when something does not, 2 when the folder cannot be used.
 """
@@ -16,8 +18,10 @@ import time
 import numpy as np
 from OCP.Bnd import Bnd_Box
 from OCP.BRep import BRep_Tool
+from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepFilletAPI import BRepFilletAPI_MakeChamfer
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_RetDone
@@ -28,12 +32,13 @@ from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label
 from OCP.collections import Sequence_TDF_Label as LabelSequence
 from OCP.TDocStd import TDocStd_Document
-from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
+from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
 VOLUME = 1e-4
+CHAMFER = 0.3
 FACES = 12
 BYTES_PER_TOOTH = 3e6 / 64  # 3 MB for a pair of 32 teeth each
 
@@ -53,6 +58,46 @@ def hole_area(ring):
     return area(ring)
 
 
+def sharp_top_edges(shape, top):
+    """Edges in the plane z = top."""
+    for edge in explore(shape, TopAbs_EDGE):
+        edge = TopoDS.Edge_s(edge) if hasattr(TopoDS, "Edge_s") else TopoDS.Edge(edge)
+        curve = BRepAdaptor_Curve(edge)
+        ends = [curve.Value(t).Z() for t in (curve.FirstParameter(), curve.LastParameter())]
+        if all(abs(z - top) < 1e-6 for z in ends):
+            yield edge
+
+
+def bevelled(shape, top):
+    """Whether all edges of the upper face take a bevel."""
+    maker = BRepFilletAPI_MakeChamfer(shape)
+    seen = set()
+    for edge in sharp_top_edges(shape, top):
+        if hash(edge) not in seen:
+            seen.add(hash(edge))
+            maker.Add(CHAMFER, edge)
+    try:
+        maker.Build()
+    except Exception:
+        return False
+    return maker.IsDone() and BRepCheck_Analyzer(maker.Shape()).IsValid()
+
+
+def plate_volume(part):
+    """A fixture of the record: its plate, posts and pockets less its holes."""
+    volume = area(part["outline"]) * part["thickness"]
+    tops = [part["thickness"]] * len(part["holes"])
+    for post in part["posts"]:
+        volume += area(post["ring"]) * (post["to"] - post["from"])
+        if post["hole"] is not None:
+            tops[post["hole"]] = max(tops[post["hole"]], post["to"])
+    volume -= sum(hole_area(hole) * top for hole, top in zip(part["holes"], tops))
+    for pocket in part.get("pockets", []):
+        widened = 0.0 if pocket["hole"] is None else hole_area(part["holes"][pocket["hole"]])
+        volume -= (area(pocket["ring"]) - widened) * (pocket["to"] - pocket["from"])
+    return volume
+
+
 def explore(shape, kind):
     explorer = TopExp_Explorer(shape, kind)
     while explorer.More():
@@ -66,7 +111,7 @@ def name(label):
     return attribute.Get().ToExtString() if found else None
 
 
-def main(folder):
+def main(folder, chamfer=False):
     folder = pathlib.Path(folder)
     try:
         record = json.loads((folder / "design.json").read_text())
@@ -99,7 +144,17 @@ def main(folder):
         XCAFDoc_ShapeTool.GetReferredShape_s(part, referred)
         gear = name(referred)
         if gear not in ("driver", "follower"):
-            faults.append(f"a part is named {gear!r}")
+            plate = next((f for f in record.get("fixtures", []) if f["name"] == gear), None)
+            shape = XCAFDoc_ShapeTool.GetShape_s(referred)
+            properties = GProp_GProps()
+            BRepGProp.VolumeProperties_s(shape, properties)
+            if plate is None:
+                faults.append(f"a part is named {gear!r}")
+            elif not BRepCheck_Analyzer(shape).IsValid() or len(list(explore(shape, TopAbs_SOLID))) != 1:
+                faults.append(f"{gear}: not one valid solid")
+            # Round parts are drawn as polygons and written as circles: 5e-3 of a small one.
+            elif not abs(properties.Mass() / plate_volume(plate) - 1) < 1e-2:
+                faults.append(f"{gear}: volume {properties.Mass():.1f} instead of {plate_volume(plate):.1f}")
             continue
         data = record[gear]
         shape = XCAFDoc_ShapeTool.GetShape_s(referred)
@@ -119,10 +174,15 @@ def main(folder):
         hub = fittings.get("hub")
         if hub:
             wanted += (math.pi * hub["radius"] ** 2 - bore) * hub["height"]
+        marks = fittings.get("marks", [])
+        for mark in marks:
+            outer, *inner = mark["face"]
+            wanted += (area(outer) - sum(map(area, inner))) * mark["height"]
         off = properties.Mass() / wanted - 1
         if not abs(off) < VOLUME:
             faults.append(f"{gear}: volume off by {off:.1e}")
-        faces = len(list(explore(shape, TopAbs_FACE))) / data["teeth"]
+        lettered = sum(len(ring) for mark in marks for ring in mark["face"])
+        faces = (len(list(explore(shape, TopAbs_FACE))) - lettered) / data["teeth"]
         if not faces < FACES:
             faults.append(f"{gear}: {faces:.1f} faces a tooth")
         color = Quantity_Color()
@@ -138,18 +198,23 @@ def main(folder):
         BRepBndLib.AddOptimal_s(shape, box, False, False)
         low, high = box.CornerMin(), box.CornerMax()
         outline = np.asarray(data["outline"])
-        top = record["thickness"] + (hub["height"] if hub else 0.0)
+        raised = max([mark["height"] for mark in marks] + [0.0])
+        top = record["thickness"] + max(hub["height"] if hub else 0.0, raised)
         extent = [*outline.min(0), 0.0, *outline.max(0), top]
         if np.abs(np.subtract([f() for p in (low, high) for f in (p.X, p.Y, p.Z)], extent)).max() > 0.02:
             faults.append(f"{gear}: extent differs")
+        if chamfer and not bevelled(shape, record["thickness"]):
+            faults.append(f"{gear}: its upper edges take no bevel of {CHAMFER} mm")
         said.append(f"{gear} {faces:.1f} faces a tooth, volume {off:+.1e}")
-    if parts.Length() != 2:
+    if parts.Length() != 2 + len(record.get("fixtures", [])):
         faults.append(f"{parts.Length()} parts")
-    size = path.stat().st_size
+    # Letters are as large as they are.
+    lettered = any((record[g].get("fittings") or {}).get("marks") for g in ("driver", "follower"))
+    size = 0 if lettered or record.get("fixtures") else path.stat().st_size
     teeth = record["driver"]["teeth"] + record["follower"]["teeth"]
     if size > BYTES_PER_TOOTH * teeth:
         faults.append(f"{size} bytes")
-    print(f"{folder.name}: read in {seconds:.2f} s, {size / 1e6:.2f} MB; " + "; ".join(said))
+    print(f"{folder.name}: read in {seconds:.2f} s, {path.stat().st_size / 1e6:.2f} MB; " + "; ".join(said))
     for fault in faults:
         print(f"  FAULT {fault}")
     return 1 if faults else 0
@@ -157,5 +222,6 @@ def main(folder):
 
 if __name__ == "__main__":
     if len(sys.argv) < 2:
-        sys.exit("usage: step_check.py FOLDER...")
-    sys.exit(max(main(folder) for folder in sys.argv[1:]))
+        sys.exit("usage: step_check.py [--chamfer] FOLDER...")
+    folders = [word for word in sys.argv[1:] if word != "--chamfer"]
+    sys.exit(max(main(folder, "--chamfer" in sys.argv) for folder in folders))
