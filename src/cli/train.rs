@@ -8,7 +8,7 @@ use centrode::assembly::{Assembly, Layout, PairModel, Train, TrainError, TrainPl
 use centrode::control::Control;
 use centrode::design::{SavedDesign, read_train};
 use centrode::diagnose::Verdict;
-use centrode::export::{ExportError, Parts, Staging, check_folder, write_json};
+use centrode::export::{ExportError, Format, Parts, Staging, check_folder, write_json};
 use centrode::meshing::{
     Drive, DynamicsOptions, TrainPlay, TrainRun, judge_train, simulate_train, train_play,
 };
@@ -19,7 +19,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use super::args::{ExportArgs, RunArgs};
-use super::files::{write_parts, write_text};
+use super::files::write_text;
 use super::progress::Progress;
 use super::{Outcome, units};
 
@@ -198,8 +198,9 @@ fn write(staging: &Staging, made: &Made, args: &TrainArgs) -> anyhow::Result<Vec
     let parts = Parts { assembly, meshes: &meshes };
     let folder = staging.path();
     let told = |error: ExportError| staging.told_of_the_final_place(error);
-    let mut files = write_parts(folder, parts, &args.formats).map_err(told)?;
-    if args.formats.wants(centrode::export::Format::Html) {
+    let wanted = args.formats.wanted();
+    let mut files = wanted.write(parts, folder).map_err(told)?;
+    if wanted.wants(Format::Html) {
         files.push(
             write_text(folder, "report.html", &report_html(assembly, &page(made))).map_err(told)?,
         );
