@@ -5,7 +5,8 @@
                   play (train.json), and ahead of it by no more than rounding and knocks;
   with rapier     simulation.csv, Centrode's own run: the same error of every gear at the same driver angle.
 
-Friction is left out, as in that run. Exit 0 when all holds, 1 when not, 2 when the folder cannot be used.
+Friction is left out, as in that run, and the gears start where its record starts. Without simulation.csv they start where
+they were designed to stand, and what they do until every mesh has closed does not count. Exit 0 when all holds, 1 when not, 2 when the folder cannot be used.
 usage: mujoco_train.py FOLDER [--cycles 1]
 """
 
@@ -62,12 +63,16 @@ def main(folder, cycles):
 
     speed = number("rpm") * 2 * math.pi / 60
     tooth = 2 * math.pi / number("teeth")
+    run = None
+    if (folder / "simulation.csv").exists():
+        _, run = table(folder / "simulation.csv")
     lead = LEAD_IN + 0.25 * len(record["meshes"])
-    start = -lead * tooth
+    start = -lead * tooth if run is None else run[0, 0]
     data = mujoco.MjData(model)
     play = np.array([gear["accumulated_play"] for gear in record["gears"]])
     slope = (law(start + 1e-4) - law(start - 1e-4)) / 2e-4
-    data.qpos[:] = law(start) - senses * 0.5 * play
+    # The errors of the run's first pose are where its meshes are closed by the loads.
+    data.qpos[:] = law(start) + (0 if run is None else senses * run[0, 3:])
     data.qpos[0] = start
     data.qvel[:] = slope * speed
     count = int((cycles * cycle - start) / speed / model.opt.timestep)
@@ -87,8 +92,7 @@ def main(folder, cycles):
         if b > p + BEYOND or a > p + BEYOND:
             faults.append(f"{gear['name']} is {a:.2f} ahead, {b:.2f} degrees behind; its play is {p:.2f}")
     compared = ""
-    if (folder / "simulation.csv").exists():
-        _, run = table(folder / "simulation.csv")
+    if run is not None:
         reach = poses[:, 0] < run[-1, 0]
         other = np.column_stack([np.interp(poses[reach, 0], run[:, 0], run[:, 3 + i]) for i in range(len(play))])
         off = errors[reach] - np.degrees(other)

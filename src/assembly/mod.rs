@@ -3,11 +3,15 @@
 //! Every picture, solid and file is made from an [`Assembly`]; it knows
 //! nothing of how the gears were designed.
 
+mod bend;
 mod collisions;
 mod fittings;
+mod pair_model;
 mod train;
 
-pub use train::{Layout, Link, PairModel, Train, TrainError, TrainGear, TrainPlan};
+pub use bend::{Bent, BentChain};
+pub use pair_model::PairModel;
+pub use train::{Layout, Link, Train, TrainError, TrainGear, TrainPlan};
 
 pub use fittings::{Fittings, Fixture, Hub, Mark, Opening, Pocket, Post, Stance};
 

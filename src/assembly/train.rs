@@ -5,25 +5,12 @@
 //! `driver = beta + phi`, `follower = beta - psi(phi)`. A gear with several neighbours obeys this in each of its
 //! meshes, so motion is handed on by psi, and by its inverse where a follower drives a driver's twin.
 
-use super::{Assembly, Gear, PlacedGear, collisions};
-use crate::gear::{Pair, SampledMotion, Side};
+use super::{Assembly, Gear, PairModel, PlacedGear, collisions};
+use crate::gear::Side;
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
-
-/// A pair of gears that trains are made of. Lengths mm, each gear in its own frame.
-#[derive(Clone, Debug)]
-pub struct PairModel {
-    /// Driver and follower as designed.
-    pub gears: Pair<Gear>,
-    /// psi over the driver angle.
-    pub motion: SampledMotion,
-    /// Distance of the axes.
-    pub center_distance: f64,
-    /// Module.
-    pub module: f64,
-}
 
 /// How a gear hangs on one that is already there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,7 +121,7 @@ pub enum TrainError {
         allowed: f64,
     },
     /// The laws of the meshes add up to a motion that no teeth bear.
-    #[error("{gear} would turn {speed:.0} times as fast as the first gear when that stands at {:.0} degrees; use fewer gears, bend the train (--layout zigzag), or take a pair whose speed changes less", at.to_degrees())]
+    #[error("{gear} would turn {speed:.0} times as fast as the first gear when that stands at {:.0} degrees; use fewer gears, bend the train (--layout auto), or take a pair whose speed changes less", at.to_degrees())]
     TooFast {
         /// The gear.
         gear: String,
@@ -263,6 +250,21 @@ impl TrainPlan {
         Ok(Train { assembly, module })
     }
 
+    /// The first mesh of each pair in which its follower drives its driver: the pair's number and the two gears.
+    #[must_use]
+    pub fn driven_by_followers(&self) -> Vec<(usize, [usize; 2])> {
+        let mut found: Vec<(usize, [usize; 2])> = Vec::new();
+        for (i, gear) in self.gears.iter().enumerate() {
+            if let Some((on, Link::Mesh { .. })) = gear.link
+                && gear.side == Side::Driver
+                && found.iter().all(|f| f.0 != gear.pair)
+            {
+                found.push((gear.pair, [on, i]));
+            }
+        }
+        found
+    }
+
     fn check(&self) -> Result<(), TrainError> {
         let count = self.gears.len();
         if !(2..=policy::TRAIN_MOST_GEARS).contains(&count) {
@@ -296,7 +298,7 @@ impl TrainPlan {
     }
 
     /// Place of each axis and height of each lower face, mm.
-    fn axes(&self) -> Vec<(Point, f64)> {
+    pub(super) fn axes(&self) -> Vec<(Point, f64)> {
         let mut axes: Vec<(Point, f64)> = Vec::with_capacity(self.gears.len());
         for gear in &self.gears {
             axes.push(match gear.link {
@@ -314,7 +316,7 @@ impl TrainPlan {
 
     /// World rotation of every gear's model frame when the first has turned by `phi` from the first pose, in which its
     /// first mesh stands as its pair was designed to begin.
-    fn rotations(&self, axes: &[(Point, f64)], phi: f64) -> Vec<f64> {
+    pub(super) fn rotations(&self, axes: &[(Point, f64)], phi: f64) -> Vec<f64> {
         let mut angles: Vec<f64> = Vec::with_capacity(self.gears.len());
         for (i, gear) in self.gears.iter().enumerate() {
             let angle = match gear.link {
@@ -355,7 +357,7 @@ impl TrainPlan {
     }
 
     /// Driver angle after which every gear stands as at first, and how many cycles of the first pair that is.
-    fn cycle(&self, axes: &[(Point, f64)]) -> Result<(f64, usize), TrainError> {
+    pub(super) fn cycle(&self, axes: &[(Point, f64)]) -> Result<(f64, usize), TrainError> {
         let one = self.pairs[self.gears[0].pair].motion.cycle();
         let one = match self.gears[0].side {
             Side::Driver => one,
@@ -482,7 +484,7 @@ impl TrainPlan {
 }
 
 /// Direction from one axis to another, radians.
-fn toward(axes: &[(Point, f64)], [from, to]: [usize; 2]) -> f64 {
+pub(super) fn toward(axes: &[(Point, f64)], [from, to]: [usize; 2]) -> f64 {
     let line = axes[to].0 - axes[from].0;
     line.y.atan2(line.x)
 }

@@ -1,6 +1,7 @@
 //! Trains of coarse pitch curves that roll on each other, bend, branch, collide and close.
 
 use super::*;
+use crate::gear::{Pair, SampledMotion};
 
 /// A pair whose follower turns by `a + 0.3 (1 - cos a)`; outlines are the pitch curves, coarse.
 fn wavy(amplitude: f64, shrink: f64) -> PairModel {
@@ -123,4 +124,50 @@ fn gears_of_one_kind_do_not_mesh() {
     assert!(matches!(plan.assemble(), Err(TrainError::NotAPair { .. })));
     plan.gears[2].link = Some((5, Link::Mesh { direction: 0.0 }));
     assert!(matches!(plan.assemble(), Err(TrainError::Unknown { .. })));
+}
+
+#[test]
+fn a_chain_is_bent_where_its_gears_turn_most_evenly() {
+    let pair = wavy(0.3, 0.8);
+    let bent = TrainPlan::bent(&pair, 6, &[Layout::ZigZag], 8.0).unwrap();
+    // Speeds from the motion itself, by differences.
+    let ratio = |train: &Train| {
+        let angle = |g: usize, k: usize| train.assembly.gears[g].angle[k];
+        let speed = |g: usize, k: usize| (angle(g, k + 1) - angle(g, k)).abs();
+        let samples = train.assembly.driver_angle.len() - 1;
+        (0..samples)
+            .flat_map(|k| (1..6).flat_map(move |b| (0..b).map(move |a| (a, b, k))))
+            .map(|(a, b, k)| speed(b, k) / speed(a, k))
+            .fold(0.0, f64::max)
+    };
+    let found = ratio(&bent.train);
+    assert!((found / bent.ratio - 1.0).abs() < 0.01, "{found} {}", bent.ratio);
+    for degrees in (-60..=60).step_by(5) {
+        let layout = Layout::ZigZag(f64::from(degrees).to_radians());
+        let plan = TrainPlan::chain(pair.clone(), 6, layout, 8.0).unwrap();
+        if let Ok(train) = plan.assemble() {
+            assert!(ratio(&train) > 0.99 * found, "{degrees}");
+        }
+    }
+}
+
+#[test]
+fn round_gears_stay_straight() {
+    let bent = TrainPlan::bent(&wavy(0.0, 0.8), 4, &[Layout::ZigZag, Layout::Arc], 8.0).unwrap();
+    assert!((bent.ratio - 1.0).abs() < 1e-6);
+    assert!(matches!(bent.layout, Layout::ZigZag(bend) if bend == 0.0));
+}
+
+#[test]
+fn a_swapped_pair_rolls_and_swapped_again_is_the_pair() {
+    let pair = wavy(0.3, 1.0);
+    let swapped = pair.swapped().unwrap();
+    let plan = TrainPlan::chain(swapped.clone(), 2, Layout::Straight, 8.0).unwrap();
+    rolls(&plan.assemble().unwrap());
+    let again = swapped.swapped().unwrap();
+    assert_eq!(again.gears.driver.outline, pair.gears.driver.outline);
+    for k in 0..20 {
+        let angle = f64::from(k) * 0.4;
+        assert!((again.motion.psi(angle) - pair.motion.psi(angle)).abs() < 1e-6);
+    }
 }

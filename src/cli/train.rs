@@ -3,14 +3,17 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::{Context, bail};
-use centrode::assembly::{Assembly, Layout, PairModel, Train, TrainError, TrainPlan};
+use anyhow::{Context, anyhow, bail};
+use centrode::assembly::{
+    Assembly, Bent, BentChain, Layout, PairModel, Train, TrainError, TrainPlan,
+};
 use centrode::control::Control;
 use centrode::design::{SavedDesign, read_train};
-use centrode::diagnose::Verdict;
-use centrode::export::{ExportError, Format, Parts, Staging, check_folder, write_json};
+use centrode::diagnose::{Severity, Verdict};
+use centrode::export::{ExportError, Mjcf, Parts, Staging, check_folder, write_json};
 use centrode::meshing::{
-    Drive, DynamicsOptions, TrainPlay, TrainRun, judge_train, simulate_train, train_play,
+    Drive, DynamicsOptions, TrainPlay, TrainRun, judge_train, prove_driven_by_follower,
+    quiet_speed, simulate_train_all, train_play,
 };
 use centrode::policy;
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section, report_html};
@@ -19,7 +22,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use super::args::{ExportArgs, RunArgs};
-use super::files::write_text;
+use super::files::{write_parts, write_text};
 use super::progress::Progress;
 use super::{Outcome, units};
 
@@ -39,9 +42,9 @@ pub(crate) struct TrainArgs {
     #[arg(long, value_name = "N")]
     gears: Option<usize>,
     /// How the chain runs
-    #[arg(long, value_enum, default_value_t = LayoutArg::Straight)]
+    #[arg(long, value_enum, default_value_t = LayoutArg::Auto)]
     layout: LayoutArg,
-    /// Bend from mesh to mesh, degrees [default: the first of several at which nothing collides]
+    /// Bend from mesh to mesh, degrees [default: the one at which the gears turn most evenly without a collision]
     #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     bend: Option<f64>,
     /// Whole cycles that are simulated
@@ -65,6 +68,8 @@ pub(crate) struct TrainArgs {
 /// How a chain runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum LayoutArg {
+    /// Up and down or round a bend, whichever lets the gears turn more evenly
+    Auto,
     /// In one line
     Straight,
     /// Up and down
@@ -87,19 +92,27 @@ struct Made {
 pub(crate) fn run(args: &TrainArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::new();
     progress.doing("putting the gears on their axles");
-    let train = assembled(args)?;
+    let (plan, train) = assembled(args)?;
     check_folder(&args.output)?;
     let assembly = &train.assembly;
     progress.doing("measuring the play of every mesh");
-    let play = train_play(assembly, policy::TRAIN_PLAY_POSES, Control::unwatched())?;
-    let mut runs = Vec::new();
+    let control = Control::unwatched();
+    let play = train_play(assembly, policy::TRAIN_PLAY_POSES, control)?;
+    let (mut runs, mut reversed, mut quiet) = (Vec::new(), Vec::new(), None);
     if !args.no_simulate {
-        progress.doing(format!("running {} gears", assembly.gears.len()));
-        for options in run_options(args, assembly.thickness) {
-            runs.push(simulate_train(assembly, &options, Control::unwatched())?);
+        let options = run_options(args, assembly.thickness);
+        progress.doing("running each pair with its follower driving");
+        reversed = driven_by_followers(&plan, &options[1])?;
+        if reversed.is_empty() || args.force {
+            progress.doing(format!("running {} gears", assembly.gears.len()));
+            runs = simulate_train_all(assembly, &options, control)?;
+            if let Some(motor) = runs.last() {
+                quiet = quiet_speed(assembly, motor, control)?;
+            }
         }
     }
-    let (faults, warnings) = judge_train(assembly, &play, &runs);
+    let (mut faults, warnings) = judge_train(assembly, &play, &runs, quiet);
+    faults.splice(0..0, reversed);
     let made = Made { play, runs, faults, warnings, train };
     if !made.faults.is_empty() && !args.force {
         progress.done();
@@ -118,14 +131,15 @@ pub(crate) fn run(args: &TrainArgs) -> anyhow::Result<Outcome> {
     Ok(if made.faults.is_empty() { Outcome::Good } else { Outcome::NotSound })
 }
 
-fn assembled(args: &TrainArgs) -> anyhow::Result<Train> {
-    if args.bend.is_some() && args.layout == LayoutArg::Straight {
-        bail!(
-            "a straight train has no bend; choose --layout zigzag, arc or ring, or leave out --bend"
-        );
+/// What the train is made of, and its gears on their axles.
+fn assembled(args: &TrainArgs) -> anyhow::Result<(TrainPlan, Train)> {
+    if args.bend.is_some() && matches!(args.layout, LayoutArg::Straight | LayoutArg::Auto) {
+        bail!("--bend needs to know what is bent; add --layout zigzag, arc or ring");
     }
     if args.plan.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
-        return Ok(read_train(&args.plan)?.assemble()?);
+        let plan = read_train(&args.plan)?;
+        let train = plan.assemble()?;
+        return Ok((plan, train));
     }
     let saved = SavedDesign::read(&args.plan)?;
     let pair = saved.pair_model()?;
@@ -133,42 +147,72 @@ fn assembled(args: &TrainArgs) -> anyhow::Result<Train> {
         bail!("{} pairs are too many; give up to {}", args.repeat, policy::TRAIN_MOST_GEARS / 2);
     };
     let made = |layout| TrainPlan::chain(pair.clone(), count, layout, saved.thickness);
+    let bent = |layouts: &[Bent]| {
+        let chain = TrainPlan::bent(&pair, count, layouts, saved.thickness)?;
+        Ok((chain.plan, chain.train))
+    };
     let plan = match (args.layout, args.bend) {
+        (LayoutArg::Auto, _) => return bent(&[Layout::ZigZag, Layout::Arc]),
+        (LayoutArg::Zigzag, None) => return bent(&[Layout::ZigZag]),
+        (LayoutArg::Arc, None) => return bent(&[Layout::Arc]),
+        (LayoutArg::Ring, None) => TrainPlan::ring(&pair, count, saved.thickness)?,
         (LayoutArg::Straight, _) => made(Layout::Straight)?,
         (LayoutArg::Zigzag, Some(bend)) => made(Layout::ZigZag(bend))?,
         (LayoutArg::Arc, Some(bend)) => made(Layout::Arc(bend))?,
         (LayoutArg::Ring, Some(skew)) => made(Layout::Ring(skew))?,
-        (LayoutArg::Ring, None) => TrainPlan::ring(&pair, count, saved.thickness)?,
-        (LayoutArg::Zigzag | LayoutArg::Arc, None) => {
-            return bent(args.layout, &pair, count, saved.thickness);
-        }
     };
-    Ok(plan.assemble()?)
+    match plan.assemble() {
+        Ok(train) => Ok((plan, train)),
+        Err(error @ (TrainError::Collision { .. } | TrainError::TooFast { .. }))
+            if args.layout != LayoutArg::Ring =>
+        {
+            Err(with_the_best_bend(error, &pair, count, saved.thickness))
+        }
+        Err(error) => Err(error.into()),
+    }
 }
 
-/// The train with the strongest of several bends at which no two gears collide.
-fn bent(
-    layout: LayoutArg,
+/// Why a chain was refused, and the bend that serves it best, if one does.
+fn with_the_best_bend(
+    error: TrainError,
     pair: &PairModel,
     count: usize,
     thickness: f64,
-) -> anyhow::Result<Train> {
-    let mut refused = None;
-    for degrees in policy::TRAIN_BENDS {
-        let layout = match layout {
-            LayoutArg::Zigzag => Layout::ZigZag(degrees.to_radians()),
-            _ => Layout::Arc(degrees.to_radians().min(std::f64::consts::PI / count as f64)),
-        };
-        match TrainPlan::chain(pair.clone(), count, layout, thickness)?.assemble() {
-            Ok(train) => return Ok(train),
-            Err(error @ TrainError::Collision { .. }) => refused = Some(error),
-            Err(error) => return Err(error.into()),
+) -> anyhow::Error {
+    match TrainPlan::bent(pair, count, &[Layout::ZigZag, Layout::Arc], thickness) {
+        Ok(BentChain { layout, ratio, .. }) => anyhow!(
+            "{error}; best is {}, at which one gear turns up to {ratio:.1} times as fast as one that drives it",
+            options_of(layout)
+        ),
+        Err(_) => error.into(),
+    }
+}
+
+fn options_of(layout: Layout) -> String {
+    match layout {
+        Layout::Straight => "--layout straight".to_owned(),
+        Layout::ZigZag(bend) => format!("--layout zigzag --bend {:.0}", bend.to_degrees()),
+        Layout::Arc(bend) => format!("--layout arc --bend {:.2}", bend.to_degrees()),
+        Layout::Ring(skew) => format!("--layout ring --bend {:.3}", skew.to_degrees()),
+    }
+}
+
+/// What is wrong with pairs whose follower has to drive in the train: one sentence each.
+fn driven_by_followers(plan: &TrainPlan, options: &DynamicsOptions) -> anyhow::Result<Vec<String>> {
+    let mut faults = Vec::new();
+    for (pair, [on, gear]) in plan.driven_by_followers() {
+        let report = prove_driven_by_follower(&plan.pairs[pair], options, Control::unwatched())?;
+        let found = report.diagnostics.iter().find(|d| d.severity == Severity::Fault);
+        if let Some(fault) = found {
+            let name = |i: usize| plan.gears[i].name.as_str();
+            faults.push(format!(
+                "{} cannot drive {}, for with its follower driving the pair fails, by the follower's angle: {fault}",
+                name(on),
+                name(gear)
+            ));
         }
     }
-    match refused {
-        Some(error) => Err(error.into()),
-        None => bail!("there is no bend to try; give one with --bend"),
-    }
+    Ok(faults)
 }
 
 /// A measuring run, led and without friction, and one by motor with it.
@@ -198,9 +242,15 @@ fn write(staging: &Staging, made: &Made, args: &TrainArgs) -> anyhow::Result<Vec
     let parts = Parts { assembly, meshes: &meshes };
     let folder = staging.path();
     let told = |error: ExportError| staging.told_of_the_final_place(error);
-    let wanted = args.formats.wanted();
-    let mut files = wanted.write(parts, folder).map_err(told)?;
-    if wanted.wants(Format::Html) {
+    let scene = Mjcf {
+        load: args.run.load,
+        rpm: args.run.rpm,
+        friction: args.run.friction,
+        density: args.run.density.unwrap_or(args.run.material),
+        ..Mjcf::default()
+    };
+    let mut files = write_parts(folder, parts, &args.formats, &scene).map_err(told)?;
+    if args.formats.wants(centrode::export::Format::Html) {
         files.push(
             write_text(folder, "report.html", &report_html(assembly, &page(made))).map_err(told)?,
         );

@@ -76,6 +76,14 @@ impl SampledMotion {
         Self { repeats: self.repeats * count.max(1), ..self }
     }
 
+    /// The motion of the same pair with its follower as the driver.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn inverted(&self) -> Result<Self, MotionError> {
+        Ok(Self::new(&self.follower, &self.driver)?.repeated(self.repeats))
+    }
+
     /// Driver angle of one whole cycle, radians.
     #[must_use]
     pub fn cycle(&self) -> f64 {

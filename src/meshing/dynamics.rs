@@ -11,7 +11,7 @@ use super::partition::PartitionError;
 use super::recorder::Recorder;
 use super::summary::WorstPlace;
 use super::touches::Touches;
-use super::world::{World, WorldGear, WorldInput};
+use super::world::{SUBSTEPS, World, WorldGear, WorldInput};
 use crate::control::{Cancelled, StageName};
 use crate::gear::{Mirrored, Motion, Side};
 use crate::geometry::{Point, Vector, cross};
@@ -353,6 +353,7 @@ fn run(input: &DynamicsInput<'_>, options: &DynamicsOptions) -> Result<Dynamics,
         friction: options.friction,
         step,
         motor,
+        substeps: SUBSTEPS,
     })
     .map_err(|(number, source)| DynamicsError::Partition {
         gear: Side::BOTH[number.min(1)],

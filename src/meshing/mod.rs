@@ -37,6 +37,6 @@ pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};
 pub use touches::Touches;
 pub use train::{
     MeshFigures, MeshPlay, TrainPlay, TrainRun, TrainRunError, TrainStep, judge_train,
-    simulate_train, train_play,
+    prove_driven_by_follower, quiet_speed, simulate_train, simulate_train_all, train_play,
 };
 pub use verdict::{MeshingReport, judge, judge_contact, judge_run, prove, proving_runs};

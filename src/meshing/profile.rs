@@ -27,6 +27,8 @@ type Manifold = ContactManifold<ContactManifoldData, ContactData>;
 #[derive(Clone)]
 pub(super) struct Profile {
     pieces: Vec<ConvexPolygon>,
+    /// Centre and radius of a circle round each piece.
+    round: Vec<(Vector, f64)>,
     /// The first is the root.
     circles: Vec<Circle>,
     surface: Surface,
@@ -71,9 +73,15 @@ impl Profile {
         }
         let mut circles = Vec::with_capacity(2 * pieces.len());
         enclose(&points, 0, &mut circles);
+        let mut round = vec![(Vector::ZERO, 0.0); pieces.len()];
+        for circle in &circles {
+            if let Holds::Piece(piece) = circle.holds {
+                round[piece as usize] = (circle.center, circle.radius);
+            }
+        }
         let (low, high) = geometry::bounds(outline);
         let bounds = Aabb::new(Vector::new(low.x, low.y), Vector::new(high.x, high.y));
-        Ok(Self { pieces, circles, surface: Surface::new(outline, module), bounds })
+        Ok(Self { pieces, round, circles, surface: Surface::new(outline, module), bounds })
     }
 
     /// Pieces of this gear and of another, which stands at `pose` in this one's frame, whose circles come within
@@ -149,11 +157,25 @@ struct Kept {
     manifolds_before: Vec<Manifold>,
 }
 
-/// Two pieces and a direction, in the frame of the first, along which they are apart.
+/// Two pieces that were apart when they were last looked at.
 #[derive(Clone, Copy)]
 struct Apart {
     pieces: [u32; 2],
+    /// Along which they were apart, in the frame of the first.
     direction: Vector,
+    /// How far the second stood away beyond the distance at which contacts are prepared.
+    spare: f64,
+    /// Where it stood in the frame of the first.
+    pose: Pose,
+}
+
+impl Apart {
+    /// Whether no point of the second piece, which lies in a circle, can have come near since.
+    fn still(&self, pose: &Pose, (center, radius): (Vector, f64)) -> bool {
+        let moved = pose.transform_point(center) - self.pose.transform_point(center);
+        let (now, then) = (pose.rotation * Vector::X, self.pose.rotation * Vector::X);
+        moved.length() + radius * (now - then).length() < self.spare
+    }
 }
 
 /// Distance of two convex pieces along a direction in the frame of the first, the second at `pose` in it.
@@ -211,8 +233,14 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for Touching {
                 .find(|&i| known[i].pieces == pieces);
             let mut manifold = if let Some(place) = place {
                 expected = place + 1;
-                if separation(one, two, pose, known[place].direction) > prediction {
+                if known[place].still(pose, second.round[b as usize]) {
                     kept.apart.push(known[place]);
+                    continue;
+                }
+                let direction = known[place].direction;
+                let spare = separation(one, two, pose, direction) - prediction;
+                if spare > 0.0 {
+                    kept.apart.push(Apart { pieces, direction, spare, pose: *pose });
                     continue;
                 }
                 Manifold { local_n1: known[place].direction, ..bare(pieces) }
@@ -234,7 +262,8 @@ impl PersistentQueryDispatcher<ContactManifoldData, ContactData> for Touching {
             );
             let count = manifold.points.len();
             if count == 0 {
-                kept.apart.push(Apart { pieces, direction: manifold.local_n1 });
+                let direction = manifold.local_n1;
+                kept.apart.push(Apart { pieces, direction, spare: 0.0, pose: *pose });
                 continue;
             }
             let normals = (manifold.local_n1, pose.rotation.inverse() * -manifold.local_n1);

@@ -22,6 +22,9 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
+/// Solver substeps of one step unless a run asks for more.
+pub(super) const SUBSTEPS: usize = 4;
+
 /// What a world is made of. Lengths mm, angles radians.
 pub(super) struct WorldInput<'a> {
     /// The first is the driver.
@@ -35,6 +38,8 @@ pub(super) struct WorldInput<'a> {
     pub(super) step: f64,
     /// Largest torque of the motor over the load; without one the driver is led.
     pub(super) motor: Option<f64>,
+    /// Solver substeps of one step; contacts are looked for once a step.
+    pub(super) substeps: usize,
 }
 
 /// One gear of a world.
@@ -164,7 +169,9 @@ impl World {
             joints.insert(ground, gears[0], motor, true);
         }
         let numbers = shapes.iter().enumerate().map(|(i, &shape)| (shape, i)).collect();
-        let softness = SpringCoefficients::new(1.0 / input.step, 1.0);
+        // Contacts are a quarter as stiff as a substep bears.
+        let stiffness = 0.25 * input.substeps as f64 / input.step;
+        let softness = SpringCoefficients::new(stiffness, 1.0);
         let parameters = IntegrationParameters {
             dt: input.step,
             contact_softness: softness,
@@ -174,6 +181,7 @@ impl World {
             normalized_max_linear_velocity: f64::MAX,
             max_ccd_substeps: 0,
             contact_recycling: false,
+            num_solver_iterations: input.substeps,
             ..IntegrationParameters::default()
         };
         Ok(Self {

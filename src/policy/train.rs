@@ -39,7 +39,5 @@ pub const TRAIN_WORST_FREE_RUN: f64 = 0.3;
 pub const WORST_LOST_SHARE: f64 = 0.01;
 /// Poses at which the play of each mesh of a train is measured.
 pub const TRAIN_PLAY_POSES: usize = 180;
-/// Bends of a chain, degrees, that are tried in turn until no two gears collide.
-pub const TRAIN_BENDS: [f64; 7] = [40.0, 30.0, 20.0, 15.0, 10.0, 5.0, 0.0];
 /// Points of each curve of a train on its page.
 pub const TRAIN_PLOT_POINTS: usize = 720;

@@ -253,5 +253,5 @@ fn run(run: &Dynamics, cycle: f64) -> Value {
 
 /// The formats there are.
 pub(super) fn formats() -> Vec<&'static str> {
-    Format::ALL.iter().map(|f| f.name()).collect()
+    Format::ALL.into_iter().map(Format::name).collect()
 }
