@@ -8,7 +8,7 @@ use std::time::Duration;
 use centrode::assembly::Gear;
 use centrode::check::{CheckOptions, check, default_runs};
 use centrode::design::{DesignOptions, ToothCount, design};
-use centrode::export::{Export, Glb, Obj, Parts, Stl, write_json};
+use centrode::export::{Encode, Glb, Obj, Parts, Stl, write_json};
 use centrode::fit::{self, FitOptions, Ratio, Search};
 use centrode::input::{LoadOptions, Shape, Toothed, load};
 use centrode::meshing::{
@@ -156,7 +156,7 @@ fn whole(c: &mut Criterion) {
             let made = design(&shapes[0], &shapes[1], &options).expect("a pair");
             let meshes = assembly_solids(&made.assembly).expect("sound solids");
             let parts = Parts { assembly: &made.assembly, meshes: &meshes };
-            for format in [&Glb::default() as &dyn Export, &Stl, &Obj] {
+            for format in [&Glb::default() as &dyn Encode, &Stl, &Obj] {
                 format.write(parts, folder.path()).expect("files");
             }
             let record = centrode::design::Record::new(&made);

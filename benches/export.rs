@@ -5,9 +5,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use centrode::design::{DesignOptions, ToothCount, design};
-use centrode::export::{
-    Animation, Dxf, Export, Glb, LaserSvg, Mjcf, Obj, Parts, Step, Stl, ThreeMf,
-};
+use centrode::export::{ExportOptions, Format, Parts};
 use centrode::input::{LoadOptions, load};
 use centrode::solid::assembly_solids;
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -20,27 +18,24 @@ fn formats(c: &mut Criterion) {
     let meshes = assembly_solids(&made.assembly).expect("sound solids");
     let parts = Parts { assembly: &made.assembly, meshes: &meshes };
     let folder = tempfile::tempdir().expect("a folder to write to");
-    let all: [(&str, &dyn Export); 9] = [
-        ("glb", &Glb::default()),
-        ("stl", &Stl),
-        ("obj", &Obj),
-        ("3mf", &ThreeMf),
-        ("step", &Step::default()),
-        ("dxf", &Dxf::default()),
-        ("laser svg", &LaserSvg::default()),
-        ("mjcf", &Mjcf::default()),
-        ("gif", &Animation::default()),
-    ];
+    let all: Vec<_> =
+        Format::ALL.iter().map(|f| (f.name(), f.encoders(&ExportOptions::default()))).collect();
     let mut group = c.benchmark_group("export");
-    for (name, format) in all {
-        group.bench_function(name, |b| b.iter(|| format.write(black_box(parts), folder.path())));
+    for (name, encoders) in all.iter().filter(|(_, encoders)| !encoders.is_empty()) {
+        group.bench_function(*name, |b| {
+            b.iter(|| {
+                for encoder in encoders {
+                    encoder.write(black_box(parts), folder.path()).expect("files");
+                }
+            });
+        });
     }
     group.bench_function("solids and all formats", |b| {
         b.iter(|| {
             let meshes = assembly_solids(&made.assembly).expect("sound solids");
             let parts = Parts { assembly: &made.assembly, meshes: &meshes };
-            for (_, format) in all {
-                format.write(parts, folder.path()).expect("files");
+            for encoder in all.iter().flat_map(|(_, encoders)| encoders) {
+                encoder.write(parts, folder.path()).expect("files");
             }
         });
     });

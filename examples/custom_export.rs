@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use centrode::design::{DesignOptions, from_motion};
-use centrode::export::{Export, Parts, Stl, write_atomically};
+use centrode::export::{Artifact, Encode, EncodeError, Parts, Stl};
 use centrode::geometry::Point;
 use centrode::law::{LawOptions, Preset};
 use centrode::solid::assembly_solids;
@@ -20,24 +20,32 @@ fn trace(ring: &[Point], at: Point, out: &mut String) -> std::fmt::Result {
     Ok(())
 }
 
+struct GCode;
+
+impl Encode for GCode {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let mut code = String::from("G21 ; mm\nG90\n");
+        for placed in &parts.assembly.gears {
+            trace(&placed.gear.outline, placed.axis, &mut code)
+                .map_err(|why| EncodeError::new("pair.gcode", why))?;
+        }
+        Ok(vec![Artifact::bytes("pair.gcode", code)])
+    }
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).ok_or("give a folder that exists")?);
     let motion = Preset::Ellipse(0.4).transmission(&LawOptions::default())?;
     let names = ["ellipse", "its twin"].map(str::to_owned);
     let made = from_motion(motion, names, [None, None], &DesignOptions::default())?;
 
-    let mut code = String::from("G21 ; mm\nG90\n");
-    for placed in &made.assembly.gears {
-        trace(&placed.gear.outline, placed.axis, &mut code)?;
-    }
-    let file = folder.join("pair.gcode");
-    write_atomically(&file, |out| std::io::Write::write_all(out, code.as_bytes()))?;
-    println!("{}", file.display());
-
     let meshes = assembly_solids(&made.assembly)?;
     let parts = Parts { assembly: &made.assembly, meshes: &meshes };
-    for file in Stl.write(parts, &folder)? {
-        println!("{}", file.display());
+    let formats: [&dyn Encode; 2] = [&GCode, &Stl];
+    for format in formats {
+        for file in format.write(parts, &folder)? {
+            println!("{}", file.display());
+        }
     }
     Ok(())
 }

@@ -4,9 +4,7 @@
 use centrode::assembly::{Layout, TrainPlan};
 use centrode::check::{CheckOptions, check};
 use centrode::design::SavedDesign;
-use centrode::export::{
-    Animation, Dxf, Export, Glb, LaserSvg, Mjcf, Obj, Parts, Step, Stl, ThreeMf,
-};
+use centrode::export::{Animation, Encode, ExportOptions, Format, Parts};
 use centrode::meshing::ContactOptions;
 use centrode::gear::Side;
 use centrode::input::toothed_from_bytes;
@@ -48,17 +46,20 @@ fuzz_target!(|text: &str| {
         Vec::new()
     });
     let parts = Parts { assembly: &assembly, meshes: &meshes };
-    let flat: [&dyn Export; 4] =
-        [&Step::default(), &Dxf::default(), &LaserSvg::default(), &Mjcf::default()];
     let animation = Animation { pixels: 48, ..Animation::default() };
-    let solid: [&dyn Export; 5] = [&Stl, &Obj, &Glb::default(), &ThreeMf, &animation];
-    // Pictures take longer than all else together.
-    let drawn = 3 + 2 * usize::from(text.len() % 16 == 0);
-    let formats =
-        flat.into_iter().chain(solid.into_iter().take(drawn).filter(|_| !meshes.is_empty()));
+    // Pictures and packages take longer than all else together.
+    let (slow, often) = ([Format::ThreeMf, Format::Gif], text.len() % 16 == 0);
+    let encoders = Format::ALL
+        .iter()
+        .filter(|f| often || !slow.contains(f))
+        .filter(|f| !f.entry().solid || !meshes.is_empty())
+        .flat_map(|f| match f {
+            Format::Gif => vec![Box::new(animation) as Box<dyn Encode>],
+            f => f.encoders(&ExportOptions::default()),
+        });
     let folder = centrode_fuzz::folder();
-    for format in formats {
-        if let Err(error) = format.write(parts, folder) {
+    for encoder in encoders {
+        if let Err(error) = encoder.write(parts, folder) {
             told(&error);
         }
     }

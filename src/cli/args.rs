@@ -12,7 +12,7 @@ use centrode::policy;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 
 use super::outfit::OutfitArgs;
-use super::{files, units};
+use super::units;
 
 /// Turns two drawings into a pair of gears that mesh.
 #[derive(Debug, Parser)]
@@ -169,18 +169,28 @@ pub(crate) struct ExportCommand {
     pub(crate) formats: ExportArgs,
 }
 
+fn formats_help() -> String {
+    let asked: Vec<&str> =
+        Format::ALL.iter().filter(|f| !f.entry().unasked).map(|f| f.name()).collect();
+    format!(
+        "Formats, separated by commas: {} [default: all but {}]",
+        Format::names(),
+        asked.join(" and ")
+    )
+}
+
 /// What is written.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Files")]
 pub(crate) struct ExportArgs {
-    /// Formats, separated by commas: glb, obj, stl, 3mf, step, dxf, svg, mjcf, gif, html, json [default: all but gif]
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',')]
+    // The formats are listed by the registry.
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', help = formats_help())]
     pub(crate) export: Vec<Format>,
     /// Also write the turning gears as moving pictures, turning.gif and turning.svg
     #[arg(long)]
     pub(crate) animate: bool,
     /// Greatest distance of the curves in STEP, DXF and laser.svg from the outline's vertices, 0.00001 to 0.05 mm
-    #[arg(long, default_value = "0.002mm", value_name = "LENGTH", value_parser = files::curve_tolerance, allow_hyphen_values = true)]
+    #[arg(long, default_value = "0.002mm", value_name = "LENGTH", value_parser = units::curve_tolerance, allow_hyphen_values = true)]
     pub(crate) curve_tolerance: f64,
     /// DXF with straight segments only, for programs that do not read arcs
     #[arg(long)]
@@ -192,7 +202,7 @@ pub(crate) struct ExportArgs {
     #[arg(long, default_value = "200x200", value_name = "WxD", value_parser = units::bed)]
     pub(crate) bed: [f64; 2],
     /// Width that the laser burns away, up to 5 mm: in laser.svg parts grow and bores shrink by half of it
-    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = files::kerf, allow_hyphen_values = true)]
+    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::kerf, allow_hyphen_values = true)]
     pub(crate) kerf: f64,
     /// Engrave the pitch curves in laser.svg
     #[arg(long)]

@@ -2,12 +2,11 @@
 
 use anyhow::bail;
 use centrode::design::SavedDesign;
-use centrode::export::{Format, Mjcf, Parts, Staging, check_folder};
+use centrode::export::{Format, Parts, Staging, check_folder};
 use centrode::solid::assembly_solids;
 
 use super::Outcome;
 use super::args::ExportCommand;
-use super::files::write_parts;
 
 pub(crate) fn run(args: &ExportCommand) -> anyhow::Result<Outcome> {
     if args.formats.export.contains(&Format::Html) {
@@ -27,7 +26,10 @@ pub(crate) fn run(args: &ExportCommand) -> anyhow::Result<Outcome> {
     let meshes = assembly_solids(&assembly)?;
     let staging = Staging::new(&folder)?;
     let parts = Parts { assembly: &assembly, meshes: &meshes };
-    let files = write_parts(staging.path(), parts, &args.formats, &Mjcf::default())
+    let files = args
+        .formats
+        .wanted()
+        .write(parts, staging.path())
         .map_err(|error| staging.told_of_the_final_place(error))?;
     for file in staging.publish(&files)? {
         println!("{}", file.display());

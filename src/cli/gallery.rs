@@ -8,7 +8,8 @@ use std::sync::Mutex;
 use anyhow::{Context, anyhow, bail};
 use centrode::design::{Design, DesignOptions, RECORD_NAME, Record, design};
 use centrode::export::{
-    Format, Mjcf, Parts, check_folder, check_inputs, prepare_folder, write_atomically, write_json,
+    Encode, Format, Parts, Picture, check_folder, check_inputs, prepare_folder, write_atomically,
+    write_json,
 };
 use centrode::fit::{Ratio, fit};
 use centrode::gallery::{
@@ -19,13 +20,13 @@ use centrode::input::{LoadOptions, Shape};
 use centrode::outline::Smoothing;
 use centrode::pitch::Centrodes;
 use centrode::policy;
-use centrode::report::{PictureOptions, pair_svg, report_html};
+use centrode::report::report_html;
 use centrode::solid::assembly_solids;
 use clap::{CommandFactory, Parser};
 use rayon::prelude::*;
 
 use super::args::{Cli, Command, DesignArgs, GalleryArgs, GalleryStep, MergeArgs};
-use super::files::{write_parts, write_text};
+use super::files::write_text;
 use super::gallery_shapes::{Gathered, gather};
 use super::progress::{Bar, Progress};
 use super::scene::given_settings;
@@ -104,7 +105,7 @@ pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outc
     let own: Vec<&str> = if args.formats.export.is_empty() {
         vec![ROW, RECORD_NAME, "pair.svg"]
     } else {
-        args.formats.names_of_a_pair().into_iter().chain([ROW]).collect()
+        args.formats.wanted().files_of_a_pair().into_iter().chain([ROW]).collect()
     };
     for job in mine.iter().filter(|_| !inputs.is_empty()) {
         check_inputs(&inputs, "file", &output.join(job.folder(&names)), &own)?;
@@ -342,23 +343,15 @@ impl Maker<'_> {
 
     /// The files of a pair: its record and picture, or the formats asked for.
     fn write(&self, folder: &Path, made: &Design) -> anyhow::Result<()> {
-        let formats = &self.args.formats;
-        if formats.export.is_empty() {
-            write_text(folder, "pair.svg", &pair_svg(&made.assembly, &PictureOptions::default()))?;
+        let wanted = self.args.formats.wanted();
+        if wanted.named.is_empty() {
+            let parts = Parts { assembly: &made.assembly, meshes: &[] };
+            Picture.write(parts, folder)?;
         } else {
-            let solid = [Format::Glb, Format::Obj, Format::Stl, Format::ThreeMf];
-            let meshes = if solid.iter().any(|f| formats.wants(*f)) {
-                assembly_solids(&made.assembly)?
-            } else {
-                Vec::new()
-            };
-            write_parts(
-                folder,
-                Parts { assembly: &made.assembly, meshes: &meshes },
-                formats,
-                &Mjcf::default(),
-            )?;
-            if formats.wants(Format::Html) {
+            let meshes =
+                if wanted.wants_solids() { assembly_solids(&made.assembly)? } else { Vec::new() };
+            wanted.write(Parts { assembly: &made.assembly, meshes: &meshes }, folder)?;
+            if wanted.wants(Format::Html) {
                 let page =
                     report_html(&made.assembly, &report::page(made, report::own_command_line()));
                 write_text(folder, "report.html", &page)?;

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use centrode::design::{Design, DesignOptions, RECORD_NAME, Record, Scale, TeethStyle, ToothCount};
 use centrode::export::{
-    ExportError, Format, Mjcf, Parts, Staging, check_folder, check_inputs, write_json,
+    ExportError, Format, Parts, Staging, check_folder, check_inputs, write_json,
 };
 use centrode::fit::Ratio;
 use centrode::input::{LoadOptions, Shape, load};
@@ -19,7 +19,7 @@ use centrode::strength::Load;
 use super::args::{
     CarverArg, ExportArgs, PairArgs, RunArgs, ShapeArgs, SizeArgs, StyleArg, TeethArgs,
 };
-use super::files::{Inputs, write_parts, write_text};
+use super::files::{Inputs, write_text};
 use super::outfit::OutfitArgs;
 use super::progress::Progress;
 use super::proof::TABLES;
@@ -99,7 +99,7 @@ impl Making<'_> {
     /// Whether the files have a place and leave the run's own inputs alone: told before the pair is made.
     pub(crate) fn check_place(&self, inputs: Inputs<'_>) -> Result<(), ExportError> {
         check_folder(self.output)?;
-        let mut names = self.formats.names_of_a_pair();
+        let mut names = self.formats.wanted().files_of_a_pair();
         if !self.no_simulate {
             names.extend(TABLES);
         }
@@ -164,8 +164,9 @@ pub(super) fn write_into(
     command: String,
 ) -> Result<Vec<PathBuf>, ExportError> {
     let parts = Parts { assembly: &made.assembly, meshes };
-    let mut files = write_parts(folder, parts, formats, &Mjcf::default())?;
-    if formats.wants(Format::Html) {
+    let wanted = formats.wanted();
+    let mut files = wanted.write(parts, folder)?;
+    if wanted.wants(Format::Html) {
         let page = report_html(&made.assembly, &report::page(made, command));
         files.push(write_text(folder, "report.html", &page)?);
     }

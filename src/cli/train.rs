@@ -10,7 +10,7 @@ use centrode::assembly::{
 use centrode::control::Control;
 use centrode::design::{SavedDesign, read_train};
 use centrode::diagnose::{Severity, Verdict};
-use centrode::export::{ExportError, Mjcf, Parts, Staging, check_folder, write_json};
+use centrode::export::{ExportError, Format, Mjcf, Parts, Staging, check_folder, write_json};
 use centrode::meshing::{
     Drive, DynamicsOptions, TrainPlay, TrainRun, judge_train, prove_driven_by_follower,
     quiet_speed, simulate_train_all, train_play,
@@ -22,7 +22,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use super::args::{ExportArgs, RunArgs};
-use super::files::{write_parts, write_text};
+use super::files::write_text;
 use super::progress::Progress;
 use super::{Outcome, units};
 
@@ -242,15 +242,16 @@ fn write(staging: &Staging, made: &Made, args: &TrainArgs) -> anyhow::Result<Vec
     let parts = Parts { assembly, meshes: &meshes };
     let folder = staging.path();
     let told = |error: ExportError| staging.told_of_the_final_place(error);
-    let scene = Mjcf {
+    let mut wanted = args.formats.wanted();
+    wanted.options.scene = Mjcf {
         load: args.run.load,
         rpm: args.run.rpm,
         friction: args.run.friction,
         density: args.run.density.unwrap_or(args.run.material),
         ..Mjcf::default()
     };
-    let mut files = write_parts(folder, parts, &args.formats, &scene).map_err(told)?;
-    if args.formats.wants(centrode::export::Format::Html) {
+    let mut files = wanted.write(parts, folder).map_err(told)?;
+    if wanted.wants(Format::Html) {
         files.push(
             write_text(folder, "report.html", &report_html(assembly, &page(made))).map_err(told)?,
         );

@@ -301,6 +301,24 @@ pub(crate) fn fit(text: &str) -> Result<Fit, String> {
     })
 }
 
+/// A kerf that a cutter may have, mm.
+pub(crate) fn kerf(text: &str) -> Result<f64, String> {
+    let most = policy::LARGEST_KERF;
+    match length_or_zero(text)? {
+        value if value <= most => Ok(value),
+        _ => Err(format!("'{text}' is wider than any cutter's; give 0mm to {most}mm")),
+    }
+}
+
+/// A distance that curves in files may keep from the outline, mm.
+pub(crate) fn curve_tolerance(text: &str) -> Result<f64, String> {
+    let (least, most) = (policy::LEAST_EXPORT_TOLERANCE, policy::LARGEST_EXPORT_TOLERANCE);
+    match positive_length(text)? {
+        value if (least..=most).contains(&value) => Ok(value),
+        _ => Err(format!("'{text}' is no tolerance that fits gears; give {least}mm to {most}mm")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

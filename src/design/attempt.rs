@@ -54,8 +54,6 @@ pub(super) struct Attempt {
     /// In modules.
     allowed_interference: f64,
     is_confirmed: bool,
-    /// Places relieved, and the worst of them in pitches.
-    relief: (usize, f64),
 }
 
 impl Attempt {
@@ -90,6 +88,8 @@ impl Attempt {
             driver_teeth: settings.teeth,
             pressure_angle: options.pressure_angle,
             addendum: options.addendum,
+            // A follower that is carved by solids is carved by the designed motion, before its clearance.
+            clearance: if options.carve_with_solids { 0.0 } else { options.clearance },
             backlash: options.backlash,
             root_clearance: options
                 .root_clearance
@@ -108,34 +108,10 @@ impl Attempt {
         } else {
             pair
         };
-        let inset = |profile: &Profile| {
-            profile
-                .inset(options.clearance)
-                .map(|p| p.without_short_edges(policy::SHORTEST_EDGE * module))
-                .ok_or(TeethError::NothingLeft { clearance: options.clearance })
-        };
-        let finished = [inset(&pair.driver)?, inset(&pair.follower)?];
+        let finished = finished(&pair, options)?;
         let poses = policy::CONTACT_POSES_TRIED;
-        let exact = contact(
-            None,
-            poses,
-            &centrodes,
-            module,
-            [&pair.driver, &pair.follower],
-            &options.control,
-        )?;
-        let contact = if options.clearance == 0.0 {
-            exact.clone()
-        } else {
-            contact(
-                None,
-                poses,
-                &centrodes,
-                module,
-                [&finished[0], &finished[1]],
-                &options.control,
-            )?
-        };
+        let (exact, contact) =
+            analysed(None, poses, &centrodes, &pair, &finished, &options.control)?;
         let drawn =
             policy::CARVE_SKIN + 2.0 * options.chord_tolerance - 2.0 * options.clearance / module;
         let allowed_interference = policy::WORST_INTERFERENCE + drawn.max(0.0);
@@ -149,7 +125,6 @@ impl Attempt {
             rounding,
             allowed_interference,
             is_confirmed: false,
-            relief: (0, 0.0),
         })
     }
 
@@ -159,64 +134,16 @@ impl Attempt {
             return Ok(self);
         }
         self.is_confirmed = true;
-        let poses = policy::CONTACT_POSES;
-        let (centrodes, module) = (&self.centrodes, self.pair.module);
-        let gears = [&self.pair.driver, &self.pair.follower];
-        self.exact = contact(Some(self.exact), poses, centrodes, module, gears, &options.control)?;
-        self.contact = if options.clearance == 0.0 {
-            self.exact.clone()
-        } else {
-            let gears = [&self.finished[0], &self.finished[1]];
-            contact(Some(self.contact), poses, centrodes, module, gears, &options.control)?
-        };
-        if options.clearance > 0.0 {
-            self.relieve(&options.control)?;
-        }
+        let known = Some((self.exact, self.contact));
+        (self.exact, self.contact) = analysed(
+            known,
+            policy::CONTACT_POSES,
+            &self.centrodes,
+            &self.pair,
+            &self.finished,
+            &options.control,
+        )?;
         Ok(self)
-    }
-
-    /// Carves from the follower what would catch under load.
-    fn relieve(&mut self, control: &Control) -> Result<(), DesignError> {
-        let (centrodes, module) = (&self.centrodes, self.pair.module);
-        let t = &centrodes.transmission;
-        let cycle = t.cycle();
-        let follower_teeth = self.settings.teeth * t.follower_fold() / t.driver_fold();
-        let pitch = std::f64::consts::TAU / f64::from(follower_teeth);
-        for _ in 0..policy::RELIEF_ROUNDS {
-            let summary = &self.contact.summary;
-            if summary.lost_poses + summary.lost_poses_reversed > 0 {
-                break;
-            }
-            let behind: Vec<f64> = self.contact.poses.iter().map(|p| p.play_behind).collect();
-            let ahead: Vec<f64> = self.contact.poses.iter().map(|p| p.play_ahead).collect();
-            let [driver, follower] = &self.finished;
-            let plays = [behind.as_slice(), ahead.as_slice()];
-            let Some(made) =
-                teeth::relieved(centrodes, driver, follower, module, cycle, plays, pitch)
-            else {
-                break;
-            };
-            self.relief.0 += made.places;
-            self.relief.1 = self.relief.1.max(made.worst);
-            self.finished[1] = made.follower;
-            let gears = [&self.finished[0], &self.finished[1]];
-            self.contact = contact(None, policy::CONTACT_POSES, centrodes, module, gears, control)?;
-        }
-        if self.relief.0 > 0 {
-            // What ends at another point by rounding would be an edge of no length.
-            let shortest = policy::SHORTEST_EDGE * module;
-            let lowered = [0, 1].map(|i| {
-                let lower = self.finished[i].with_tips_lowered(policy::RELIEF_TIP * module)?;
-                Some(lower.without_short_edges(shortest))
-            });
-            if let [Some(driver), Some(follower)] = lowered {
-                self.finished = [driver, follower];
-                let gears = [&self.finished[0], &self.finished[1]];
-                self.contact =
-                    contact(None, policy::CONTACT_POSES, centrodes, module, gears, control)?;
-            }
-        }
-        Ok(())
     }
 
     /// Steepest lean of its pitch curves, radians.
@@ -229,7 +156,7 @@ impl Attempt {
         self.settings
     }
 
-    /// 99th percentile of the transmission error without clearance, in pitches.
+    /// 99th percentile of the transmission error against the motion that the flanks were made for, in pitches.
     pub(super) fn error_share(&self) -> f64 {
         self.exact
             .summary
@@ -364,13 +291,6 @@ impl Attempt {
                 strays.to_degrees()
             ));
         }
-        if self.relief.0 > 0 {
-            steps.push(format!(
-                "{} places of the follower were relieved that would have caught under load, by up to {:.1} % of a pitch",
-                self.relief.0,
-                100.0 * self.relief.1
-            ));
-        }
         let transmission = &self.centrodes.transmission;
         let teeth = [
             self.settings.teeth,
@@ -495,6 +415,46 @@ fn carved_by_solids(
     )?;
     let follower = pair.follower.relabelled(carved.outline);
     Ok(ToothedPair { follower, ..pair })
+}
+
+/// Both gears with their clearance.
+fn finished(pair: &ToothedPair, options: &DesignOptions) -> Result<[Profile; 2], DesignError> {
+    if pair.loaded.is_some() {
+        return Ok([pair.driver.clone(), pair.follower.clone()]);
+    }
+    let inset = |profile: &Profile| {
+        profile
+            .inset(options.clearance)
+            .map(|p| p.without_short_edges(policy::SHORTEST_EDGE * pair.module))
+            .ok_or(TeethError::NothingLeft { clearance: options.clearance })
+    };
+    Ok([inset(&pair.driver)?, inset(&pair.follower)?])
+}
+
+/// Contact at `poses` poses against the motion that the flanks were made for, and of the finished gears
+/// against the designed motion. Poses of analyses that are `known` are kept.
+fn analysed(
+    known: Option<(ContactAnalysis, ContactAnalysis)>,
+    poses: usize,
+    centrodes: &Centrodes,
+    pair: &ToothedPair,
+    finished: &[Profile; 2],
+    control: &Control,
+) -> Result<(ContactAnalysis, ContactAnalysis), DesignError> {
+    let (known_exact, known) = known.unzip();
+    let module = pair.module;
+    let found = contact(known, poses, centrodes, module, [&finished[0], &finished[1]], control)?;
+    let exact = if let Some([behind, _]) = &pair.loaded {
+        let t = &centrodes.transmission;
+        found.against(&|phi| behind.psi(phi) - t.psi(phi))
+    } else if pair.driver == finished[0] {
+        found.clone()
+    } else {
+        // An inset gives the play of each flank its own swing, which is no error of its shape.
+        let gears = [&pair.driver, &pair.follower];
+        contact(known_exact, poses, centrodes, module, gears, control)?
+    };
+    Ok((exact, found))
 }
 
 /// Contact at `poses` poses; those of an analysis `known` with fewer are kept.

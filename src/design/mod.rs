@@ -164,7 +164,7 @@ impl Design {
         }
     }
 
-    /// Holds the finished gears, with their clearance and relief, to the limits that a run holds them to.
+    /// Holds the finished gears, with their clearance, to the limits that a run holds them to.
     fn judge_swing(&mut self) {
         let limits = Limits::default();
         for found in judge_contact(&self.contact, None, self.pair.module, self.teeth[0], &limits) {

@@ -4,7 +4,7 @@ use super::contours::color;
 use super::keys::keys;
 use super::raster::{MARK, SHEET, View};
 use super::xml::escaped;
-use super::{Export, ExportError, Parts, write_atomically};
+use super::{Artifact, Encode, EncodeError, Entry, Parts};
 use crate::assembly::Assembly;
 use crate::geometry::Point;
 use crate::policy;
@@ -12,7 +12,6 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
 
 /// `turning.gif` and `turning.svg`: one whole cycle, repeated for ever.
 ///
@@ -35,17 +34,22 @@ impl Default for Animation {
     }
 }
 
-impl Export for Animation {
-    fn file_names(&self, _: &Assembly) -> Vec<String> {
-        vec!["turning.gif".to_owned(), "turning.svg".to_owned()]
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "gif",
+    files: &[(
+        &["turning.gif", "turning.svg"],
+        "the turning pair for a chat or a README (`--animate`, or `--export gif` alone)",
+    )],
+    unasked: false,
+    encoders: |_| vec![Box::new(Animation::default())],
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let paths = [folder.join("turning.gif"), folder.join("turning.svg")];
-        write_atomically(&paths[0], |out| self.gif(parts.assembly, out))?;
-        let svg = self.svg(parts.assembly);
-        write_atomically(&paths[1], |out| out.write_all(svg.as_bytes()))?;
-        Ok(paths.to_vec())
+impl Encode for Animation {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let gif = Artifact::stream("turning.gif", |out| self.gif(parts.assembly, out));
+        Ok(vec![gif, Artifact::bytes("turning.svg", self.svg(parts.assembly))])
     }
 }
 

@@ -1,6 +1,6 @@
 //! Binary glTF: the gears as they turn, for viewers and Blender.
 
-use super::{Export, ExportError, Parts, keys::keys, write_atomically};
+use super::{Artifact, Encode, EncodeError, Entry, Parts, keys::keys};
 use crate::assembly::{Assembly, PlacedGear, Stance};
 use crate::geometry::perimeter;
 use crate::policy;
@@ -14,8 +14,7 @@ use gltf_json::{Index, Root};
 use std::borrow::Cow;
 use std::f32::consts::FRAC_1_SQRT_2;
 use std::f64::consts::TAU;
-use std::io::{self, ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, ErrorKind};
 
 const METRES_PER_MM: f64 = 1e-3;
 /// Linear RGB of the driver's and the followers' plastic.
@@ -40,17 +39,22 @@ impl Default for Glb {
     }
 }
 
-impl Export for Glb {
-    fn file_names(&self, _: &Assembly) -> Vec<String> {
-        vec!["pair.glb".to_owned()]
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "glb",
+    files: &[(
+        &["pair.glb"],
+        "Blender, browsers: both gears, animated by the transmission function",
+    )],
+    solid: true,
+    encoders: |_| vec![Box::new(Glb::default())],
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let path = folder.join("pair.glb");
-        let encode = |e: String| ExportError::Encode { path: path.clone(), why: e };
-        let bytes = self.bytes(parts).map_err(|e| encode(e.to_string()))?;
-        write_atomically(&path, |out| out.write_all(&bytes))?;
-        Ok(vec![path])
+impl Encode for Glb {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let bytes = self.bytes(parts).map_err(|why| EncodeError::new("pair.glb", why))?;
+        Ok(vec![Artifact::bytes("pair.glb", bytes)])
     }
 }
 

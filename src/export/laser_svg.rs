@@ -3,14 +3,12 @@
 use super::contours::{Contour, contour};
 use super::flat::{Flat, flat};
 use super::xml::escaped;
-use super::{Export, ExportError, Parts, write_atomically};
+use super::{Artifact, Encode, EncodeError, Entry, Parts, Picture};
 use crate::assembly::{Assembly, Fixture, Gear};
 use crate::geometry::curves::Arc;
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
 use std::fmt::Write as _;
-use std::io::Write;
-use std::path::{Path, PathBuf};
 
 /// `laser.svg`: the parts side by side, never overlapping, with the marks (and the pitch curves, if asked for) to engrave in
 /// blue, then the holes and last the outlines to cut in red, each in its own layer: a beam that follows the file cuts inside
@@ -31,18 +29,31 @@ impl Default for LaserSvg {
     }
 }
 
-impl Export for LaserSvg {
-    fn file_names(&self, _: &Assembly) -> Vec<String> {
-        vec!["laser.svg".to_owned()]
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "svg",
+    files: &[
+        (&["pair.svg"], "the picture, 1:1 in millimetres"),
+        (
+            &["laser.svg"],
+            "laser cutters: hairlines in millimetres, cut and engrave layers inside out, `--kerf`, `--laser-pitch-curves`",
+        ),
+    ],
+    encoders: |options| {
+        let laser = LaserSvg {
+            kerf: options.kerf,
+            tolerance: options.curve_tolerance,
+            pitch_curves: options.laser_pitch_curves,
+        };
+        vec![Box::new(Picture), Box::new(laser)]
+    },
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let path = folder.join("laser.svg");
-        let text = self
-            .sheet(parts.assembly)
-            .map_err(|why| ExportError::Encode { path: path.clone(), why })?;
-        write_atomically(&path, |out| out.write_all(text.as_bytes()))?;
-        Ok(vec![path])
+impl Encode for LaserSvg {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let text = self.sheet(parts.assembly).map_err(|why| EncodeError::new("laser.svg", why))?;
+        Ok(vec![Artifact::bytes("laser.svg", text)])
     }
 }
 

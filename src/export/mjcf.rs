@@ -2,15 +2,14 @@
 
 mod text;
 
-use super::{Export, ExportError, Parts, write_atomically};
+use super::{Artifact, Encode, EncodeError, Entry, Parts};
 use crate::assembly::{Assembly, PlacedGear};
 use crate::gear::SampledMotion;
 use crate::geometry::{Point, Vector, cross, perimeter};
 use crate::meshing::convex_partition;
 use crate::policy;
 use std::f64::consts::{PI, TAU};
-use std::io::{self, ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, ErrorKind};
 
 /// `scene.xml`: a hinge per gear, convex prisms that touch only those of the gears it meshes with,
 /// a drive on the first gear and a load on the last. Gears on a shared axle are refused. Self-contained; it turns without
@@ -47,16 +46,23 @@ impl Default for Mjcf {
     }
 }
 
-impl Export for Mjcf {
-    fn file_names(&self, _: &Assembly) -> Vec<String> {
-        vec!["scene.xml".to_owned()]
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "mjcf",
+    files: &[(
+        &["scene.xml"],
+        "MuJoCo: the pair as rigid bodies that turn each other by their teeth (see `scenes/mujoco/`)",
+    )],
+    // A scene holds no shared axles and no sectors.
+    holds: |assembly| assembly.axles.is_empty() && !assembly.swings(),
+    encoders: |options| vec![Box::new(options.scene)],
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let path = folder.join("scene.xml");
-        let text = self.scene(parts.assembly).map_err(|e| ExportError::from_io(&path, e))?;
-        write_atomically(&path, |out| out.write_all(text.as_bytes()))?;
-        Ok(vec![path])
+impl Encode for Mjcf {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let text = self.scene(parts.assembly).map_err(|why| EncodeError::new("scene.xml", why))?;
+        Ok(vec![Artifact::bytes("scene.xml", text)])
     }
 }
 

@@ -1,24 +1,26 @@
-//! One file per format, behind one small trait.
+//! Files of a design: one encoder per format, one registry of them, one way to the disk.
 //!
-//! Exporters write what they are given, an [`Assembly`] and the checked solid of
-//! each of its gears; what they draw of it (curves through an outline's vertices) comes from
-//! [`crate::geometry::curves`]. Every file appears
-//! whole or not at all ([`write_atomically`]).
+//! An encoder ([`Encode`]) makes [`Artifact`]s of an [`Assembly`] and the checked solid of each of its gears; what it draws
+//! of outlines (curves through their vertices) comes from [`crate::geometry::curves`]. [`Format`] lists the formats with
+//! all that is known of each. Every file appears whole or not at all ([`write_atomically`]), those of a run all together
+//! ([`Staging`]).
 
 mod animation;
 mod atomic;
 mod contours;
 mod dxf;
+mod encode;
 mod flat;
-mod format;
 mod glb;
 mod json;
 mod keys;
 mod laser_svg;
 mod mjcf;
 mod obj;
+mod picture;
 mod plate;
 mod raster;
+mod registry;
 mod render;
 mod staging;
 mod step;
@@ -29,13 +31,15 @@ mod xml;
 pub use animation::Animation;
 pub use atomic::{ExportError, check_folder, check_inputs, prepare_folder, write_atomically};
 pub use dxf::Dxf;
-pub use format::{Format, UnknownFormat};
+pub use encode::{Artifact, Destination, Encode, EncodeError, write};
 pub use glb::Glb;
 pub use json::write_json;
 pub use laser_svg::LaserSvg;
 pub use mjcf::Mjcf;
 pub use obj::Obj;
+pub use picture::Picture;
 pub use plate::Plate;
+pub use registry::{Entry, ExportOptions, Format, UnknownFormat, Wanted};
 pub use staging::Staging;
 pub use step::Step;
 pub use stl::Stl;
@@ -43,7 +47,6 @@ pub use threemf::ThreeMf;
 
 use crate::assembly::Assembly;
 use crate::solid::Mesh;
-use std::path::{Path, PathBuf};
 
 /// What exporters write.
 #[derive(Clone, Copy, Debug)]
@@ -65,18 +68,6 @@ impl<'a> Parts<'a> {
         let rest = self.meshes.get(self.assembly.gears.len()..).unwrap_or_default();
         self.assembly.fixtures.iter().zip(rest)
     }
-}
-
-/// A file format.
-pub trait Export {
-    /// The files it writes for this assembly, without folder.
-    fn file_names(&self, assembly: &Assembly) -> Vec<String>;
-
-    /// Writes the files into `folder`, which exists, and returns where they are.
-    ///
-    /// # Errors
-    /// [`ExportError`], naming the file; files finished before it stay.
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError>;
 }
 
 #[cfg(test)]
@@ -159,29 +150,12 @@ mod tests {
     }
 
     #[test]
-    fn every_format_writes_the_files_it_names() {
+    fn all_wanted_files_are_written_and_no_temporary_one_stays() {
         let (assembly, meshes) = wavy_pair();
         let folder = tempfile::tempdir().unwrap();
         let parts = Parts { assembly: &assembly, meshes: &meshes };
-        let formats: [&dyn Export; 9] = [
-            &Stl,
-            &Obj,
-            &Glb::default(),
-            &ThreeMf,
-            &Plate::default(),
-            &Step::default(),
-            &Dxf::default(),
-            &LaserSvg::default(),
-            &Mjcf::default(),
-        ];
-        for format in formats {
-            let written = format.write(parts, folder.path()).unwrap();
-            let names: Vec<PathBuf> =
-                format.file_names(&assembly).iter().map(|n| folder.path().join(n)).collect();
-            assert_eq!(written, names);
-            assert!(written.iter().all(|p| p.metadata().unwrap().len() > 1000));
-        }
-        let left = std::fs::read_dir(folder.path()).unwrap().count();
-        assert_eq!(left, 12, "no temporary file stays");
+        let written = Wanted::default().write(parts, folder.path()).unwrap();
+        assert!(written.iter().all(|p| p.metadata().unwrap().len() > 1000));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), written.len());
     }
 }

@@ -1,27 +1,30 @@
 //! Wavefront OBJ: all parts in one file, standing in mesh.
 
-use super::{Export, ExportError, Parts, write_atomically};
-use crate::assembly::Assembly;
+use super::{Artifact, Encode, EncodeError, Entry, Parts};
 use crate::policy;
 use crate::solid::{Mesh, shade};
 use nalgebra::{Isometry3, Point3, Vector3};
 use obj_exporter::{Geometry, ObjSet, Object, Primitive, Shape, Vertex};
-use std::path::{Path, PathBuf};
 
 /// `pair.obj`: one object per part in the first pose of the motion, mm, six decimals, with normals.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Obj;
 
-impl Export for Obj {
-    fn file_names(&self, _: &Assembly) -> Vec<String> {
-        vec!["pair.obj".to_owned()]
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "obj",
+    files: &[(&["pair.obj"], "modelling programs")],
+    solid: true,
+    encoders: |_| vec![Box::new(Obj)],
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let set = ObjSet { material_library: None, objects: objects(parts) };
-        let path = folder.join("pair.obj");
-        write_atomically(&path, |out| obj_exporter::export(&set, out))?;
-        Ok(vec![path])
+impl Encode for Obj {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        Ok(vec![Artifact::stream("pair.obj", move |mut out| {
+            let set = ObjSet { material_library: None, objects: objects(parts) };
+            obj_exporter::export(&set, &mut out)
+        })])
     }
 }
 

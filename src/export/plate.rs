@@ -1,12 +1,11 @@
 //! The plate to print: every part flat on the bed, side by side.
 
 use super::threemf::{Item, items, package};
-use super::{Export, ExportError, Parts, write_atomically};
+use super::{Artifact, Encode, EncodeError, Parts};
 use crate::assembly::Assembly;
 use crate::geometry::{self, Point};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use std::f64::consts::FRAC_PI_2;
-use std::path::{Path, PathBuf};
 
 /// Room between parts and to the edge of the bed, mm: for a brim, and for fingers.
 const GAP: f64 = 5.0;
@@ -26,24 +25,19 @@ impl Default for Plate {
     }
 }
 
-impl Export for Plate {
-    fn file_names(&self, assembly: &Assembly) -> Vec<String> {
-        (0..self.beds(assembly).len()).map(file_name).collect()
-    }
-
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let all = items(parts);
-        let mut paths = Vec::new();
-        for (number, bed) in self.beds(parts.assembly).into_iter().enumerate() {
-            let path = folder.join(file_name(number));
-            let lying: Vec<Item<'_>> = bed
-                .into_iter()
-                .filter_map(|(part, place)| Some(Item { place, ..*all.get(part)? }))
-                .collect();
-            write_atomically(&path, |out| package(parts.assembly, &lying, out))?;
-            paths.push(path);
-        }
-        Ok(paths)
+impl Encode for Plate {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let artifact = |(number, bed): (usize, Vec<(usize, Isometry3<f64>)>)| {
+            Artifact::stream(file_name(number), move |out| {
+                let all = items(parts);
+                let lying: Vec<Item<'_>> = bed
+                    .into_iter()
+                    .filter_map(|(part, place)| Some(Item { place, ..*all.get(part)? }))
+                    .collect();
+                package(parts.assembly, &lying, out)
+            })
+        };
+        Ok(self.beds(parts.assembly).into_iter().enumerate().map(artifact).collect())
     }
 }
 
@@ -234,6 +228,9 @@ mod tests {
         let names: Vec<_> =
             files.iter().map(|f| f.file_name().unwrap().to_str().unwrap()).collect();
         assert_eq!(names, ["plate.3mf", "plate-2.3mf"]);
-        assert_eq!(names, plate.file_names(&assembly));
+        assert_eq!(
+            names,
+            plate.beds(&assembly).iter().enumerate().map(|(i, _)| file_name(i)).collect::<Vec<_>>()
+        );
     }
 }

@@ -1,37 +1,39 @@
 //! STL for slicers: binary, one file per part.
 
-use super::{Export, ExportError, Parts, write_atomically};
-use crate::assembly::Assembly;
-use std::path::{Path, PathBuf};
+use super::{Artifact, Encode, EncodeError, Entry, Parts};
+use crate::solid::Mesh;
 
 /// `<part>.stl` for each gear and each fixture, such as `base.stl`, in the part's own frame, mm (STL itself has no unit).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stl;
 
-impl Export for Stl {
-    fn file_names(&self, assembly: &Assembly) -> Vec<String> {
-        let gears = assembly.gears.iter().map(|g| &g.gear.name);
-        let names = gears.chain(assembly.fixtures.iter().map(|f| &f.name));
-        names.map(|name| format!("{name}.stl")).collect()
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "stl",
+    files: &[(&["driver.stl", "follower.stl"], "slicers; `base.stl` with `--base`")],
+    solid: true,
+    encoders: |_| vec![Box::new(Stl)],
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let paths: Vec<PathBuf> =
-            self.file_names(parts.assembly).iter().map(|name| folder.join(name)).collect();
-        let meshes =
-            parts.iter().map(|(_, mesh)| mesh).chain(parts.fixtures().map(|(_, mesh)| mesh));
-        for (mesh, path) in meshes.zip(&paths) {
-            let facets: Vec<stl_io::Triangle> = mesh
-                .triangles
-                .iter()
-                .map(|&t| stl_io::Triangle {
-                    normal: stl_io::Normal::new(unit(mesh.area_normal(t))),
-                    vertices: mesh.corners(t).map(|p| stl_io::Vertex::new(p.map(|c| c as f32))),
-                })
-                .collect();
-            write_atomically(path, |out| stl_io::write_stl(out, facets.iter()))?;
-        }
-        Ok(paths)
+impl Encode for Stl {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let gears = parts.iter().map(|(placed, mesh)| (&placed.gear.name, mesh));
+        let fixtures = parts.fixtures().map(|(fixture, mesh)| (&fixture.name, mesh));
+        let artifact = |(name, mesh): (&'a String, &'a Mesh)| {
+            Artifact::stream(format!("{name}.stl"), move |mut out| {
+                let facets: Vec<stl_io::Triangle> = mesh
+                    .triangles
+                    .iter()
+                    .map(|&t| stl_io::Triangle {
+                        normal: stl_io::Normal::new(unit(mesh.area_normal(t))),
+                        vertices: mesh.corners(t).map(|p| stl_io::Vertex::new(p.map(|c| c as f32))),
+                    })
+                    .collect();
+                stl_io::write_stl(&mut out, facets.iter())
+            })
+        };
+        Ok(gears.chain(fixtures).map(artifact).collect())
     }
 }
 
@@ -45,7 +47,7 @@ fn unit(v: [f64; 3]) -> [f32; 3] {
 mod tests {
     use super::super::tests::wavy_pair;
     use super::*;
-    use crate::solid::{Expected, Mesh, check};
+    use crate::solid::{Expected, check};
 
     #[test]
     fn what_is_read_back_is_the_sound_solid() {

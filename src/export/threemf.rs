@@ -3,14 +3,13 @@
 use super::contours::color;
 use super::render::{Shown, picture};
 use super::xml::escaped;
-use super::{Export, ExportError, Parts, write_atomically};
+use super::{Artifact, Encode, EncodeError, Entry, Parts, Plate};
 use crate::assembly::Assembly;
 use crate::policy;
 use crate::solid::Mesh;
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use std::fmt::Write as _;
 use std::io::{self, Seek, Write};
-use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
@@ -26,16 +25,26 @@ const RELATIONS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/><Relationship Target="/Metadata/thumbnail.png" Id="rel1" Type="http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"/></Relationships>
 "#;
 
-impl Export for ThreeMf {
-    fn file_names(&self, _: &Assembly) -> Vec<String> {
-        vec!["pair.3mf".to_owned()]
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "3mf",
+    files: &[
+        (&["pair.3mf"], "slicers, in millimetres, with names, colours and a small picture"),
+        (
+            &["plate.3mf"],
+            "printers: every part flat on the bed (`--bed 220x220`), side by side; `plate-2.3mf` where one is full",
+        ),
+    ],
+    solid: true,
+    encoders: |options| vec![Box::new(ThreeMf), Box::new(Plate { bed: options.bed })],
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let path = folder.join("pair.3mf");
-        let items = standing(parts);
-        write_atomically(&path, |out| package(parts.assembly, &items, out))?;
-        Ok(vec![path])
+impl Encode for ThreeMf {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        Ok(vec![Artifact::stream("pair.3mf", move |out| {
+            package(parts.assembly, &standing(parts), out)
+        })])
     }
 }
 

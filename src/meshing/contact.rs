@@ -201,6 +201,19 @@ impl ContactAnalysis {
         }
         analyse_from(self.poses, input, options)
     }
+
+    /// The same contact with the follower's error under load counted from another motion: one that leads the
+    /// designed one by `lead` radians at a driver angle. Plays and contacts stay as they are.
+    #[must_use]
+    pub fn against(&self, lead: &dyn Fn(f64) -> f64) -> Self {
+        let mut poses = self.poses.clone();
+        for pose in &mut poses {
+            pose.transmission_error = -pose.play_behind - lead(pose.driver_angle);
+            pose.transmission_error_pitch = pose.transmission_error / pose.pitch_angle;
+        }
+        let summary = self.summary.with_errors_of(&poses);
+        Self { poses, summary, center_distance: self.center_distance }
+    }
 }
 
 /// Adds the poses that are missing; those of `known` are the first of the staggered sequence.

@@ -96,6 +96,16 @@ impl ContactSummary {
             max_pressure_angle: greatest(pressure),
         }
     }
+
+    /// The same with the transmission error under load of other poses.
+    pub(super) fn with_errors_of(&self, poses: &[ContactPose]) -> Self {
+        let loaded = || poses.iter().filter(|p| !p.lost);
+        Self {
+            transmission_error: deviation(loaded().map(|p| p.transmission_error)),
+            transmission_error_pitch: deviation(loaded().map(|p| p.transmission_error_pitch)),
+            ..self.clone()
+        }
+    }
 }
 
 fn greatest(values: impl Iterator<Item = (f64, f64)>) -> Option<WorstPlace> {

@@ -25,10 +25,8 @@ pub const REACH_STEPS_PER_ADDENDUM: f64 = 6.0;
 pub const REACH_LIMIT: f64 = 5.0;
 /// Halvings of the last step: 2^-30 of it is below rounding of the outline.
 pub const REACH_BISECTIONS: usize = 30;
-/// Intervals between the wanted and the steepest pressure angle that a flank may choose from.
-pub const PRESSURE_ANGLE_STEPS: u32 = 4;
 /// Contact ratio at which a flank stops asking for a steeper pressure angle. One is the least that
-/// hands motion over; the surplus covers what clearance takes from the tips.
+/// hands motion over; the surplus covers what carving takes.
 pub const WANTED_CONTACT_RATIO: f64 = 1.15;
 /// Top land left on a pointed tooth, in modules.
 pub const SMALLEST_TOP_LAND: f64 = 0.12;
@@ -84,29 +82,3 @@ pub const CARVE_DEPTH: f64 = 0.05;
 /// The driver is shrunk by this before it may carve a follower that already has conjugate flanks, in
 /// modules: above the chord error of the flanks, so that touching is not taken for collision.
 pub const CARVE_SKIN: f64 = 6e-4;
-
-// Teeth: relief for play.
-
-/// Fastest that the lag of a loaded follower may change, as a share of its speed: the driver's torque
-/// changes by this share meanwhile, and the pitch point moves so little that flanks stay conjugate.
-pub const RELIEF_RATE: f64 = 0.03;
-/// Sudden loss of lag, in pitches of the follower, that is worth a cut; smaller ones are facets.
-pub const RELIEF_FROM: f64 = 2e-3;
-/// How far top lands are lowered after relief, in modules: a tip that touched its mate would still catch.
-pub const RELIEF_TIP: f64 = 0.02;
-/// Distance between what was carved and the chords that are kept, in modules.
-pub const RELIEF_CHORD: f64 = 2e-4;
-/// Carving instants between two poses of the contact analysis.
-pub const RELIEF_SUBSTEPS: i64 = 2;
-/// Least speed ratio at which the instant centre of the lagging motion is taken; a follower that
-/// falls back faster than it is driven has none between the axes.
-pub const RELIEF_LEAST_SPEED: f64 = 0.01;
-/// Sine of the turn between two edges below which they count as in line when tips are moved.
-pub const RELIEF_CORNER: f64 = 0.02;
-/// Farthest that a corner moves when tips are moved, in multiples of that move.
-pub const RELIEF_REACH: f64 = 3.0;
-/// Rounds of contact analysis and relief.
-pub const RELIEF_ROUNDS: usize = 3;
-/// Walls thinner than twice this, in modules, are taken off a follower after relief: carving leaves
-/// slivers that hang on by a point.
-pub const RELIEF_SLIVER: f64 = 1e-3;

@@ -253,5 +253,5 @@ fn run(run: &Dynamics, cycle: f64) -> Value {
 
 /// The formats there are.
 pub(super) fn formats() -> Vec<&'static str> {
-    Format::ALL.into_iter().map(Format::name).collect()
+    Format::ALL.iter().map(|f| f.name()).collect()
 }

@@ -33,7 +33,7 @@ pub(crate) struct Carved {
 /// outside the blank are left out before any boolean, but for those next to one that lies inside: the
 /// cut must reach the blank's boundary on all sides, or what it separates stays attached.
 pub(crate) fn carve(
-    rolling: &Rolling<'_>,
+    rolling: &Rolling,
     tool: &[Point],
     blank: &[Point],
     (arc, instants): (f64, usize),

@@ -13,16 +13,21 @@
 //! `sin(alpha) - delta kappa_F cos(alpha)`, where `delta = sigma (u - s)`: positive above the
 //! driver's pitch curve, negative below. Where either vanishes that flank has a cusp (undercut).
 
+use super::motions::Motions;
 use super::rolling::{Instant, Rolling};
 use crate::gear::Side;
 use crate::geometry::Point;
 use crate::policy;
 
 /// A rack flank and how far along it the two gears may touch.
+///
+/// It belongs to the motion that the pair makes while flanks of its hand carry ([`Motions::of`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Flank {
-    /// Arc length where the flank crosses the pitch curves, mm.
+    /// Arc length of its motion where the flank crosses the pitch curves, mm.
     pub(crate) u: f64,
+    /// Arc length of the designed motion where it would cross without clearance, mm.
+    pub(crate) station: f64,
     /// +1 on the driver tooth's greater-s side, -1 on the lesser.
     pub(crate) sigma: f64,
     /// Pressure angle, radians.
@@ -34,9 +39,23 @@ pub(crate) struct Flank {
 }
 
 impl Flank {
-    /// A flank that may not touch anywhere yet.
-    pub(crate) fn new(u: f64, sigma: f64, alpha: f64) -> Self {
-        Self { u, sigma, alpha, driver_reach: 0.0, follower_reach: 0.0 }
+    /// A flank at `station` that may not touch anywhere yet. Of the room that the motion of its hand leaves
+    /// to the designed one each gear gives half.
+    pub(crate) fn new(motions: &Motions, station: f64, sigma: f64, alpha: f64) -> Self {
+        let phi = motions.designed().driver_angle(station);
+        let own = motions.of(sigma);
+        let centrodes = own.centrodes();
+        let working = alpha + sigma * centrodes.lean(phi);
+        let arm = centrodes.follower_radius(phi) * working.cos().max(0.0);
+        let given = 0.5 * motions.lead(sigma, phi).abs() * arm / alpha.cos();
+        let u = if motions.has_play() { own.arc(phi) - sigma * given } else { station };
+        Self { u, station, sigma, alpha, driver_reach: 0.0, follower_reach: 0.0 }
+    }
+
+    /// The flank with the addendum of one gear in contact over `share` of its reach only.
+    pub(crate) fn shortened(mut self, side: Side, share: f64) -> Self {
+        self.set_reach(side, share * self.reach(side));
+        self
     }
 
     /// Reach of the addendum of one gear.
@@ -72,6 +91,21 @@ impl Flank {
         (ends.0.min(ends.1), ends.0.max(ends.1))
     }
 
+    /// The flank with its contact held to an interval of arc length.
+    pub(crate) fn active_within(mut self, low: f64, high: f64) -> Self {
+        let (below, above) = (self.u - low, high - self.u);
+        let (driver, follower) = if self.sigma < 0.0 { (above, below) } else { (below, above) };
+        self.driver_reach = self.driver_reach.min(driver.max(0.0));
+        self.follower_reach = self.follower_reach.min(follower.max(0.0));
+        self
+    }
+
+    /// Working pressure angle at arc length `s` of the flank's own motion, radians: between the contact
+    /// normal and the perpendicular to the line of centres.
+    pub(crate) fn working_angle(&self, own: &Rolling, s: f64) -> f64 {
+        self.alpha + self.sigma * own.at(s).slope()
+    }
+
     /// Arc length at which the flank touches with `delta` (positive above the driver's pitch curve).
     pub(crate) fn arc_at(&self, delta: f64) -> f64 {
         self.u - self.sigma * delta
@@ -93,7 +127,7 @@ impl Flank {
     }
 
     /// The point of this flank on one gear, in that gear's frame, for a given `delta`.
-    pub(crate) fn point(&self, rolling: &Rolling<'_>, side: Side, delta: f64) -> Point {
+    pub(crate) fn point(&self, rolling: &Rolling, side: Side, delta: f64) -> Point {
         let instant = rolling.at(self.arc_at(delta));
         instant.to_local(side, self.contact(&instant))
     }
@@ -102,7 +136,7 @@ impl Flank {
     /// its chords deviate from it by less than `tolerance` mm. Each point comes with its arc length.
     pub(crate) fn sample(
         &self,
-        rolling: &Rolling<'_>,
+        rolling: &Rolling,
         side: Side,
         (from, to): (f64, f64),
         tolerance: f64,
@@ -117,7 +151,7 @@ impl Flank {
     #[expect(clippy::too_many_arguments, reason = "the state of one recursion, used nowhere else")]
     fn refine(
         &self,
-        rolling: &Rolling<'_>,
+        rolling: &Rolling,
         side: Side,
         (d0, p0): (f64, Point),
         (d1, p1): (f64, Point),
@@ -147,13 +181,10 @@ fn distance_to_chord(p: Point, a: Point, b: Point) -> f64 {
 }
 
 /// How far from the pitch point contact may go on the addendum of `side`: until either flank nears
-/// its cusp or the point stands `addendum` mm above the pitch curve.
-pub(crate) fn longest_reach(
-    rolling: &Rolling<'_>,
-    flank: &Flank,
-    side: Side,
-    addendum: f64,
-) -> f64 {
+/// its cusp or the point stands `addendum` mm above the designed pitch curve (on the curve of its own
+/// motion the two corners of a tooth would be of different heights).
+pub(crate) fn longest_reach(motions: &Motions, flank: &Flank, side: Side, addendum: f64) -> f64 {
+    let rolling = motions.of(flank.sigma);
     let step = addendum / policy::REACH_STEPS_PER_ADDENDUM;
     let slowest = policy::FLANK_SLOWEST * flank.alpha.sin();
     let sound = |reach: f64| {
@@ -163,7 +194,7 @@ pub(crate) fn longest_reach(
             return false;
         }
         let p = instant.to_local(side, flank.contact(&instant));
-        rolling.foot(side, p, flank.u).1 <= addendum
+        motions.designed().foot(side, p, flank.station).1 <= addendum
     };
     let limit = addendum * policy::REACH_LIMIT;
     let mut good = 0.0;

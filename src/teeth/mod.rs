@@ -3,17 +3,20 @@
 mod carve;
 mod clearance;
 mod flank;
+mod free;
+mod lag;
 mod layout;
+mod motions;
 mod profile;
 mod record;
-mod relief;
 mod rolling;
+mod room;
 mod root;
 mod wave;
 
+pub use motions::LoadedMotion;
 pub use profile::{EdgeKind, Profile};
 pub use record::{ToothRecord, ToothShape};
-pub use relief::{Relieved, relieved};
 pub use wave::{regular_wave_pair, wave_pair};
 
 use crate::control::{Cancelled, Control};
@@ -22,6 +25,7 @@ use crate::geometry::Point;
 use crate::pitch::Centrodes;
 use crate::policy;
 use layout::{Layout, Rack};
+use motions::Motions;
 use profile::gear_profile;
 use rolling::Rolling;
 
@@ -38,6 +42,9 @@ pub struct TeethOptions {
     pub addendum: f64,
     /// Room below a mating tip, in modules (dedendum less addendum).
     pub root_clearance: f64,
+    /// Clearance, mm: what each gear gives of its flanks along their normals and of its tips. Involute
+    /// flanks are generated with it; waves are not, [`Profile::inset`] gives it to them.
+    pub clearance: f64,
     /// Backlash along the pitch curve, mm: both gears' flanks are thinned by a quarter each.
     pub backlash: f64,
     /// Flank chords keep within this distance of the true curve, in modules.
@@ -54,6 +61,7 @@ impl Default for TeethOptions {
             steepest_pressure_angle: 30_f64.to_radians(),
             addendum: 1.0,
             root_clearance: 0.25,
+            clearance: 0.0,
             backlash: 0.0,
             chord_tolerance: 5e-4,
             control: Control::unwatched().clone(),
@@ -61,7 +69,7 @@ impl Default for TeethOptions {
     }
 }
 
-/// Two toothed outlines without clearance, conjugate to each other.
+/// Two toothed outlines, conjugate to each other.
 #[derive(Clone, Debug)]
 pub struct ToothedPair {
     /// Outline of the driver in its frame.
@@ -76,6 +84,9 @@ pub struct ToothedPair {
     pub cuts: usize,
     /// What became of each tooth of one period of the motion; empty for wave teeth.
     pub records: Vec<ToothRecord>,
+    /// The motions of the loaded pair that the flanks were made for, the follower behind and ahead, where the
+    /// outlines have their clearance. `None` for outlines without clearance.
+    pub loaded: Option<[LoadedMotion; 2]>,
 }
 
 /// Why no teeth could be made.
@@ -110,6 +121,9 @@ pub enum TeethError {
     },
 }
 
+/// Rounds of laying out flanks and taking from them the lag that they need: each changes the other by little.
+const LAG_ROUNDS: usize = 2;
+
 impl TeethOptions {
     fn teeth_per_period(&self, folds: u32) -> Result<usize, TeethError> {
         if self.driver_teeth == 0 || !self.driver_teeth.is_multiple_of(folds) {
@@ -119,8 +133,9 @@ impl TeethOptions {
     }
 }
 
-/// Builds involute teeth on both gears: flanks from one rack, roots swept free by the mate's tips, and
-/// whatever still collides carved from the follower.
+/// Builds involute teeth on both gears, with their clearance: flanks from one rack in the motion that the
+/// loaded pair makes, roots swept free by the mate's tips, and whatever still collides carved from the
+/// follower.
 ///
 /// # Errors
 /// See [`TeethError`].
@@ -144,60 +159,50 @@ fn involutes(centrodes: &Centrodes, options: &TeethOptions) -> Result<ToothedPai
         module,
         pressure_angle: options.pressure_angle,
         steepest_pressure_angle: options.steepest_pressure_angle.max(options.pressure_angle),
-        addendum: options.addendum * module,
+        addendum: options.addendum * module - options.clearance,
         root_clearance: options.root_clearance * module,
+        clearance: options.clearance,
     };
-    let layout = Layout::new(&rolling, &rack, teeth);
-    options.control.check()?;
-    let tolerance = options.chord_tolerance * module;
-    let gear = |side, folds| {
-        gear_profile(&rolling, &layout, &rack, side, folds, options.backlash, tolerance)
+    let nothing_left = TeethError::NothingLeft { clearance: options.clearance };
+    if rack.addendum <= 0.0 {
+        return Err(nothing_left);
+    }
+    let mut motions = Motions::without_clearance(rolling);
+    let mut layout = Layout::new(&motions, &rack, teeth);
+    let mut loaded = None;
+    if options.clearance > 0.0 {
+        for _ in 0..LAG_ROUNDS {
+            options.control.check()?;
+            let motion = |sigma| lag::loaded_motion(&motions, &layout, &rack, sigma);
+            let (Some(behind), Some(ahead)) = (motion(-1.0), motion(1.0)) else {
+                return Err(nothing_left);
+            };
+            let both = [behind, ahead];
+            motions = motions.with_loaded(&both);
+            layout = Layout::new(&motions, &rack, teeth);
+            loaded = Some(both);
+        }
+    }
+    let gear = |side: Side, folds| {
+        options.control.check()?;
+        let tolerance = options.chord_tolerance * module;
+        gear_profile(&motions, &layout, &rack, side, folds, options.backlash, tolerance)
             .untangled()
             .ok_or(TeethError::Tangled { gear: side })
     };
     let driver = gear(Side::Driver, folds)?;
-    options.control.check()?;
     let follower = gear(Side::Follower, centrodes.transmission.follower_fold())?;
-    let (follower, cuts) =
-        carve_rest(&rolling, &driver, follower, module, teeth, &options.control)?;
-    let records = record::records(&rolling, &layout, &rack);
-    Ok(ToothedPair { driver, follower, module, uncovered: layout.uncovered(), cuts, records })
-}
-
-/// Carves from the follower what flanks and roots left standing in the driver's way.
-fn carve_rest(
-    rolling: &Rolling<'_>,
-    driver: &Profile,
-    follower: Profile,
-    module: f64,
-    teeth: usize,
-    control: &Control,
-) -> Result<(Profile, usize), TeethError> {
-    let tangled = |gear| TeethError::Tangled { gear };
-    let tool = driver.inset(policy::CARVE_SKIN * module).ok_or(tangled(Side::Driver))?;
-    control.check()?;
-    let periods = rolling.cycle_periods();
-    let carved = carve::carve(
-        rolling,
-        &tool.points,
-        &follower.points,
-        (
-            rolling.period() * f64::from(periods),
-            policy::CARVE_INSTANTS_PER_TOOTH * teeth * periods as usize,
-        ),
-        policy::CARVE_DEPTH * module,
-        true,
-        control,
-    )?
-    .ok_or(tangled(Side::Follower))?;
-    if carved.cuts == 0 {
-        return Ok((follower, 0));
-    }
-    let outline = follower
-        .relabelled(carved.outline)
-        .without_short_edges(policy::SHORTEST_EDGE * module)
-        .repeated(rolling.follower_fold(), policy::FOLD_MATCH * module);
-    Ok((outline, carved.cuts))
+    let carved = room::carved(&motions, driver, follower, &rack, teeth, &options.control)?;
+    let records = record::records(&motions, &layout, &rack);
+    Ok(ToothedPair {
+        driver: carved.driver,
+        follower: carved.follower,
+        module,
+        uncovered: layout.uncovered(),
+        cuts: carved.cuts,
+        records,
+        loaded,
+    })
 }
 
 /// What the moving driver leaves of a blank (follower's frame, mm): paper, section 3.3 (iii), along the

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::flank::Flank;
 use super::layout::{Layout, Rack};
-use super::rolling::Rolling;
+use super::motions::Motions;
 use super::root::{cap, root_curve};
 use crate::gear::Side;
 use crate::geometry::{Point, rotate};
@@ -30,11 +30,11 @@ pub struct Profile {
     pub kinds: Vec<EdgeKind>,
 }
 
-/// The outline of one gear without clearance. `folds` periods make the whole gear; `backlash` (mm,
+/// The outline of one gear. `folds` periods make the whole gear; `backlash` (mm,
 /// along the pitch curve) is shared equally by the four flanks that meet in it; flank chords keep
 /// within `tolerance` mm.
 pub(crate) fn gear_profile(
-    rolling: &Rolling<'_>,
+    motions: &Motions,
     layout: &Layout,
     rack: &Rack,
     side: Side,
@@ -43,7 +43,7 @@ pub(crate) fn gear_profile(
     tolerance: f64,
 ) -> Profile {
     let teeth = layout.teeth(side);
-    let spaces = spaces_after(&teeth, layout.period);
+    let spaces = spaces_after(&teeth, layout);
     let pieces: Vec<Vec<(Point, EdgeKind)>> = teeth
         .par_iter()
         .zip(&spaces)
@@ -53,12 +53,12 @@ pub(crate) fn gear_profile(
             let full = |flank: &Flank| {
                 (side.sign() * flank.reach(side), -side.sign() * flank.reach(side.partner()))
             };
-            let (a, b) = (a.thinned(side, backlash), b.thinned(side, backlash));
+            let [a, b] = [a, b].map(|f| f.thinned(side, backlash));
             let (tip, bottom) = full(&a);
-            let rising = a.sample(rolling, side, (bottom, tip), tolerance);
+            let rising = a.sample(motions.of(a.sigma), side, (bottom, tip), tolerance);
             let (tip, bottom) = full(&b);
-            let falling = b.sample(rolling, side, (tip, bottom), tolerance);
-            let land = cap(rolling, &[a, b], side, 0.0, 0.0, 1);
+            let falling = b.sample(motions.of(b.sigma), side, (tip, bottom), tolerance);
+            let land = cap(motions, &[a, b], side, 0.0, 0.0, 1);
             let interior = |line: Vec<Point>| {
                 let count = line.len();
                 line.into_iter().skip(1).take(count.saturating_sub(2))
@@ -73,7 +73,7 @@ pub(crate) fn gear_profile(
                 last.1 = EdgeKind::Root;
             }
             piece.extend(
-                root_curve(rolling, rack, space, side, backlash)
+                root_curve(motions, rack, space, side, backlash)
                     .into_iter()
                     .map(|p| (p, EdgeKind::Root)),
             );
@@ -100,12 +100,10 @@ pub(crate) fn gear_profile(
     Profile { points, kinds }.without_short_edges(policy::SHORTEST_EDGE * rack.module)
 }
 
-fn spaces_after(teeth: &[[Flank; 2]], period: f64) -> Vec<[Flank; 2]> {
+fn spaces_after(teeth: &[[Flank; 2]], layout: &Layout) -> Vec<[Flank; 2]> {
     (0..teeth.len())
         .map(|j| {
-            let wraps = j + 1 == teeth.len();
-            let mut next = teeth[(j + 1) % teeth.len()][0];
-            next.u += if wraps { period } else { 0.0 };
+            let next = teeth.get(j + 1).map_or_else(|| layout.later(teeth[0][0]), |next| next[0]);
             [teeth[j][1], next]
         })
         .collect()

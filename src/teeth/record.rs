@@ -2,7 +2,7 @@
 
 use super::flank::Flank;
 use super::layout::{Layout, Rack};
-use super::rolling::Rolling;
+use super::motions::Motions;
 use crate::gear::Side;
 use crate::policy;
 
@@ -39,7 +39,7 @@ pub struct ToothRecord {
 }
 
 /// The record of every tooth of one period, driver first.
-pub(crate) fn records(rolling: &Rolling<'_>, layout: &Layout, rack: &Rack) -> Vec<ToothRecord> {
+pub(crate) fn records(motions: &Motions, layout: &Layout, rack: &Rack) -> Vec<ToothRecord> {
     Side::BOTH
         .into_iter()
         .flat_map(|side| {
@@ -47,21 +47,22 @@ pub(crate) fn records(rolling: &Rolling<'_>, layout: &Layout, rack: &Rack) -> Ve
                 .teeth(side)
                 .into_iter()
                 .enumerate()
-                .map(move |(index, tooth)| record(rolling, rack, side, index, &tooth))
+                .map(move |(index, tooth)| record(motions, rack, side, index, &tooth))
         })
         .collect()
 }
 
 fn record(
-    rolling: &Rolling<'_>,
+    motions: &Motions,
     rack: &Rack,
     side: Side,
     index: usize,
     tooth: &[Flank; 2],
 ) -> ToothRecord {
+    let rolling = motions.designed();
     let corners = tooth.map(|flank| {
         let delta = side.sign() * flank.reach(side);
-        rolling.foot(side, flank.point(rolling, side, delta), flank.u)
+        rolling.foot(side, flank.point(motions.of(flank.sigma), side, delta), flank.station)
     });
     let heights = corners.map(|(_, height)| height / rack.module);
     let middle = rolling.at(0.5 * (corners[0].0 + corners[1].0)).local(side);

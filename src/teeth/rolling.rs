@@ -4,6 +4,9 @@
 //! gears. In the driver's own frame it runs clockwise, in the follower's
 //! counter-clockwise. All frames follow `Centrodes`: world x axis along the
 //! line of centres, driver axis at the origin, follower axis at (L, 0).
+//!
+//! The follower of a loaded pair starts behind (or ahead of) its designed angle: a rolling has an
+//! `offset`, the follower's angle at driver angle 0.
 
 use crate::gear::{Gearing, Side};
 use crate::geometry::{Point, Vector, quarter_turn};
@@ -45,6 +48,17 @@ impl Instant {
             curvatures: (0.0, 0.0),
             center_distance,
         }
+    }
+
+    /// The same instant counted as rolled arc length `s`, mm.
+    pub(crate) fn counted(self, s: f64) -> Self {
+        Self { s, ..self }
+    }
+
+    /// Slope of the pitch curves: signed angle from the perpendicular to the line of centres to the
+    /// common tangent, radians. A flank of hand `sigma` works at `alpha + sigma slope`.
+    pub(crate) fn slope(&self) -> f64 {
+        self.tangent.x.atan2(-self.tangent.y)
     }
 
     /// A world point in the frame of one gear.
@@ -102,9 +116,11 @@ pub(crate) struct CurveFrame {
 /// The table's knots lie at even driver angles, on the knots of psi' and between them, so that the
 /// motion is smooth on each interval; there the driver angle is a quintic in the arc length that
 /// takes the exact value, slope and bend at both ends.
-#[derive(Debug)]
-pub(crate) struct Rolling<'a> {
-    centrodes: &'a Centrodes,
+#[derive(Clone, Debug)]
+pub(crate) struct Rolling {
+    centrodes: Centrodes,
+    /// Follower angle at driver angle 0, radians.
+    offset: f64,
     knots: Vec<Knot>,
     /// For even arc lengths, the last knot at or before each.
     hints: Vec<u32>,
@@ -137,18 +153,24 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-impl<'a> Rolling<'a> {
-    pub(crate) fn new(centrodes: &'a Centrodes) -> Self {
+impl Rolling {
+    /// The designed motion: the follower starts at angle 0.
+    pub(crate) fn new(centrodes: &Centrodes) -> Self {
+        Self::with_offset(centrodes.clone(), 0.0)
+    }
+
+    /// Pitch curves whose follower starts at `offset` radians.
+    pub(crate) fn with_offset(centrodes: Centrodes, offset: f64) -> Self {
         let samples = centrodes.transmission.samples().len();
         let intervals = samples * policy::ROLLING_INTERVALS.div_ceil(samples).max(1);
         let step = centrodes.transmission.driver_period() / intervals as f64;
         let mut knots = Vec::with_capacity(intervals + 1);
         let mut total = 0.0;
-        knots.push(Knot::new(centrodes, 0.0, 0.0));
+        knots.push(Knot::new(&centrodes, 0.0, 0.0));
         for i in 1..=intervals {
             let (from, to) = ((i - 1) as f64 * step, i as f64 * step);
-            total += arc_between(centrodes, from, to);
-            knots.push(Knot::new(centrodes, total, to));
+            total += arc_between(&centrodes, from, to);
+            knots.push(Knot::new(&centrodes, total, to));
         }
         let mut last = 0;
         let hints = (0..intervals)
@@ -160,7 +182,17 @@ impl<'a> Rolling<'a> {
                 last as u32
             })
             .collect();
-        Self { centrodes, knots, hints }
+        Self { centrodes, offset, knots, hints }
+    }
+
+    /// The pitch curves that roll.
+    pub(crate) fn centrodes(&self) -> &Centrodes {
+        &self.centrodes
+    }
+
+    /// Follower angle at driver angle `phi`, radians.
+    pub(crate) fn follower_angle(&self, phi: f64) -> f64 {
+        self.centrodes.transmission.psi(phi) + self.offset
     }
 
     /// Arc length of one period of the motion, mm.
@@ -194,11 +226,21 @@ impl<'a> Rolling<'a> {
             + between(&self.knots[i], &self.knots[i + 1], rest)
     }
 
+    /// Arc length rolled at driver angle `phi`, any real.
+    pub(crate) fn arc(&self, phi: f64) -> f64 {
+        let period = self.centrodes.transmission.driver_period();
+        let turns = (phi / period).floor();
+        let rest = phi - turns * period;
+        let last = self.knots.len() - 2;
+        let knot = &self.knots[((rest / period * (last + 1) as f64) as usize).min(last)];
+        turns * self.period() + knot.s + arc_between(&self.centrodes, knot.angle, rest)
+    }
+
     /// The instant at which arc length `s` has been rolled.
     pub(crate) fn at(&self, s: f64) -> Instant {
         let phi = self.driver_angle(s);
-        let c = self.centrodes;
-        let psi = c.transmission.psi(phi);
+        let c = &self.centrodes;
+        let psi = self.follower_angle(phi);
         let r = c.driver_radius(phi);
         let (sin_lean, cos_lean) = c.lean(phi).sin_cos();
         let tangent = Vector::new(sin_lean, -cos_lean);
@@ -279,6 +321,7 @@ mod tests {
             let at = |i: i32| TAU * f64::from(i) / f64::from(steps);
             let mut arc = 0.0;
             for i in 0..steps {
+                assert!((rolling.arc(at(i)) - arc).abs() < 1e-9, "{samples} {i}");
                 let found = rolling.driver_angle(arc + rolling.period()) - TAU;
                 assert!((found - at(i)).abs() < 1e-11, "{samples} {i}: {:e}", found - at(i));
                 arc += arc_between(&centrodes, at(i), at(i + 1));

@@ -4,29 +4,37 @@
 //! the direction of its flanks, like the rounded tip of a rack. While it passes through the space
 //! its envelope is the trochoid that joins the two flanks of the space. The envelope is taken along
 //! rays from a point inside the space: on each the farthest reach of the cap over all instants,
-//! refined between instants, so that it carries no ripple of the sampling.
+//! refined between instants, so that it carries no ripple of the sampling. With clearance the mate may
+//! stand anywhere between the two motions of the loaded pair: the cap passes at three levels, and what its
+//! points pass on their way from level to level is free as well.
 
 use super::flank::Flank;
 use super::layout::Rack;
-use super::rolling::Rolling;
+use super::motions::Motions;
 use crate::gear::Side;
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
 
+/// Places of the follower between its two extremes at which a cap passes; with two alone ridges would
+/// stay between them.
+const LEVELS: [f64; 3] = [0.0, 0.5, 1.0];
+
 /// The cap on the tooth between flanks `a` (lesser s) and `b` (greater s) of gear `side`, from the
 /// corner on `a` to the corner on `b`, in the frame of that gear. With `rise` zero it is the tip itself.
 pub(crate) fn cap(
-    rolling: &Rolling<'_>,
+    motions: &Motions,
     [a, b]: &[Flank; 2],
     side: Side,
     rise: f64,
     rounding: f64,
     points_per_corner: usize,
 ) -> Vec<Point> {
+    let rolling = motions.designed();
     let corner = |flank: &Flank, inward: f64| {
-        let instant = rolling.at(flank.arc_at(side.sign() * flank.reach(side)));
+        let own = motions.of(flank.sigma);
+        let instant = own.at(flank.arc_at(side.sign() * flank.reach(side)));
         let p = instant.to_local(side, flank.contact(&instant));
-        let (foot, height) = rolling.foot(side, p, flank.u);
+        let (foot, height) = rolling.foot(side, p, flank.station);
         let (sin, cos) = flank.alpha.sin_cos();
         let up = side.sign() * (cos * instant.normal - flank.sigma * sin * instant.tangent);
         let up = instant.to_local(side, instant.pitch + up) - instant.to_local(side, instant.pitch);
@@ -75,15 +83,16 @@ pub(crate) fn cap(
 /// `a` to the root end of `b`, both excluded, in the frame of that gear. The root moves
 /// with flanks that are thinned by `backlash`.
 pub(crate) fn root_curve(
-    rolling: &Rolling<'_>,
+    motions: &Motions,
     rack: &Rack,
     [a, b]: &[Flank; 2],
     side: Side,
     backlash: f64,
 ) -> Vec<Point> {
+    let rolling = motions.designed();
     let mate = side.partner();
     let cap = cap(
-        rolling,
+        motions,
         &[*a, *b],
         mate,
         rack.root_clearance,
@@ -91,12 +100,13 @@ pub(crate) fn root_curve(
         policy::CAP_POINTS_PER_CORNER,
     );
     let end = |flank: &Flank, share: f64| {
-        flank.thinned(side, backlash).point(rolling, side, mate.sign() * share * flank.reach(mate))
+        let delta = mate.sign() * share * flank.reach(mate);
+        flank.thinned(side, backlash).point(motions.of(flank.sigma), side, delta)
     };
     let (end_a, end_b) = (end(a, 1.0), end(b, 1.0));
     let center =
         Point::from(0.25 * (end_a.coords + end_b.coords + end(a, 0.5).coords + end(b, 0.5).coords));
-    let frame = rolling.at(0.5 * (a.u + b.u)).local(side);
+    let frame = rolling.at(0.5 * (a.station + b.station)).local(side);
     let polar = |p: Point| {
         let d: Vector = p - center;
         (d.dot(&frame.tangent), -d.dot(&frame.normal))
@@ -110,29 +120,45 @@ pub(crate) fn root_curve(
         return Vec::new();
     }
     // While the mate's corners are past their last contact on either flank the cap is in the space.
-    let mut span = [a, b].map(|f| f.arc_at(mate.sign() * f.reach(mate)));
+    let mut span = [a, b].map(|f| {
+        let own = motions.of(f.sigma);
+        rolling.arc(own.driver_angle(f.arc_at(mate.sign() * f.reach(mate))))
+    });
     span.sort_by(f64::total_cmp);
     let margin = policy::ROOT_MARGIN * rack.pitch;
     let (start, stop) = (span[0] - margin, span[1] + margin);
     let instants = policy::ROOT_INSTANTS;
     let step = (stop - start) / (instants - 1) as f64;
-    let cap_at = |s: f64| -> Vec<(f64, f64)> {
-        let instant = rolling.at(s);
+    let levels: &[f64] = if motions.has_play() { &LEVELS } else { &[0.0] };
+    let cap_at = |level: f64, s: f64| -> Vec<(f64, f64)> {
+        let instant = motions.between(s, level);
         cap.iter().map(|&p| polar(instant.to_local(side, instant.to_world(mate, p)))).collect()
     };
-    let caps: Vec<_> = (0..instants).map(|k| cap_at(start + step * k as f64)).collect();
+    let caps: Vec<Vec<_>> = levels
+        .iter()
+        .map(|&level| (0..instants).map(|k| cap_at(level, start + step * k as f64)).collect())
+        .collect();
     let farthest = |cap: &[(f64, f64)], ray: f64| {
         cap.windows(2).filter_map(|e| crossing(e[0], e[1], ray)).fold(0.0, f64::max)
     };
+    // What the points of the cap pass on their way from one level to the next.
+    let passed = |ray: f64| {
+        let steps = caps.windows(2).flat_map(|pair| pair[0].iter().zip(&pair[1]));
+        let paths = steps.flat_map(|(cap, next): (&Vec<_>, &Vec<_>)| cap.iter().zip(next));
+        paths.filter_map(|(from, to)| crossing(*from, *to, ray)).fold(0.0, f64::max)
+    };
     let relief = policy::ROOT_RELIEF * rack.module + 0.25 * backlash;
     let on_ray = |ray: f64| -> Option<Point> {
-        let found = caps.iter().map(|cap| farthest(cap, ray)).enumerate();
-        let (k, found) = found.max_by(|x, y| x.1.total_cmp(&y.1))?;
+        let found = levels.iter().zip(&caps).flat_map(|(level, caps)| {
+            caps.iter().enumerate().map(move |(k, cap)| (*level, k, farthest(cap, ray)))
+        });
+        let (level, k, found) = found.max_by(|x, y| x.2.total_cmp(&y.2))?;
         if found <= 0.0 {
             return None;
         }
         let at = start + step * k as f64;
-        let r = largest_near(|s| farthest(&cap_at(s), ray), at - step, at + step).max(found);
+        let r = largest_near(|s| farthest(&cap_at(level, s), ray), at - step, at + step);
+        let r = r.max(found).max(passed(ray));
         let (sin, cos) = ray.sin_cos();
         Some(center + (r + relief) * (sin * frame.tangent - cos * frame.normal))
     };

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::control::Control;
+use crate::gear::Motion;
 use crate::geometry::{self, Point, rotate};
 use crate::meshing::{ContactAnalysis, ContactInput, ContactOptions, analyse};
 use crate::pitch::Transmission;
@@ -154,6 +155,61 @@ fn backlash_thins_flanks_and_clearance_moves_every_face() {
     assert!((play(&plain, 0.1) - zero - expected).abs() < 2e-3, "{}", play(&plain, 0.1));
     let tip = |p: &ToothedPair| p.driver.points.iter().map(|q| q.coords.norm()).fold(0.0, f64::max);
     assert!((tip(&plain) - tip(&loose)).abs() < 1e-9, "backlash leaves the tips alone");
+}
+
+/// A law with curvature and slope: fast bends that lean up to 45 degrees.
+fn sloping() -> Centrodes {
+    centrodes(|phi| 1.0 + 0.5 * (2.0 * phi).cos() + 0.1 * (5.0 * phi).sin(), 1)
+}
+
+#[test]
+fn clearance_keeps_the_action_in_the_motion_of_the_loaded_pair() {
+    for centrodes in [centrodes(ellipse(0.3), 1), sloping()] {
+        let t = &centrodes.transmission;
+        let options = TeethOptions { clearance: 0.1, chord_tolerance: 2e-5, ..options(48) };
+        let pair = involute_pair(&centrodes, &options).unwrap();
+        let [behind, ahead] = pair.loaded.as_ref().unwrap();
+        let analysis = contact(&centrodes, &pair, 0.0);
+        assert!(analysis.summary.max_interference.is_none());
+        for pose in &analysis.poses {
+            let phi = pose.driver_angle;
+            let (back, front) = (t.psi(phi) - behind.psi(phi), ahead.psi(phi) - t.psi(phi));
+            // Nothing touches before the flanks do, and they open by both gears' clearance at least where
+            // they work at 60 degrees or less.
+            for (play, lag) in [(pose.play_behind, back), (pose.play_ahead, front)] {
+                assert!(play > lag - 2e-3 * pose.pitch_angle, "{phi}: {play} {lag}");
+                assert!(lag * pose.follower_radius > 0.2 - 1e-9, "{phi}: {lag}");
+            }
+        }
+        let error = analysis.against(&|phi| behind.psi(phi) - t.psi(phi)).summary;
+        let error = error.transmission_error_pitch.unwrap();
+        assert!(error.median.abs() < 2e-4, "{error:?}");
+        assert!(error.median_deviation < 2e-4, "{error:?}");
+    }
+}
+
+#[test]
+fn the_loaded_motions_are_periodic_and_change_slowly() {
+    let centrodes = sloping();
+    let t = &centrodes.transmission;
+    let pair = involute_pair(&centrodes, &TeethOptions { clearance: 0.2, ..options(40) }).unwrap();
+    for motion in pair.loaded.unwrap() {
+        assert!((motion.psi(1.0 + TAU) - motion.psi(1.0) - TAU).abs() < 1e-9);
+        for i in 0..500 {
+            let phi = TAU * f64::from(i) / 500.0;
+            let share = motion.derivative(phi) / t.derivative(phi);
+            assert!((share - 1.0).abs() < 0.031, "{phi}: {share}");
+        }
+    }
+}
+
+#[test]
+fn flanks_are_flatter_where_the_pitch_curve_slopes_against_them() {
+    let pair = involute_pair(&sloping(), &options(48)).unwrap();
+    let angles = || pair.records.iter().flat_map(|r| r.pressure_angles);
+    let flattest = angles().fold(f64::MAX, f64::min).to_degrees();
+    let asked = 20.0;
+    assert!(flattest > 7.9 && flattest < asked - 2.0, "{flattest}");
 }
 
 #[test]

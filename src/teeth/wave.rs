@@ -112,5 +112,13 @@ fn waves(
     .ok_or(TeethError::Tangled { gear: Side::Follower })?;
     let cuts = carved.cuts;
     let follower = label(carved.outline).without_short_edges(policy::SHORTEST_EDGE * module);
-    Ok(ToothedPair { driver, follower, module, uncovered: [0.0; 2], cuts, records: Vec::new() })
+    Ok(ToothedPair {
+        driver,
+        follower,
+        module,
+        uncovered: [0.0; 2],
+        cuts,
+        records: Vec::new(),
+        loaded: None,
+    })
 }

@@ -5,12 +5,10 @@ mod r2000;
 
 use super::contours::{Contour, contour};
 use super::flat::flat;
-use super::{Export, ExportError, Parts, write_atomically};
-use crate::assembly::{Assembly, Fixture, PlacedGear};
+use super::{Artifact, Encode, EncodeError, Entry, Parts};
+use crate::assembly::{Fixture, PlacedGear};
 use crate::geometry::Point;
 use crate::policy;
-use std::io::Write;
-use std::path::{Path, PathBuf};
 
 /// `pair.dxf` with all gears in mesh, and `<gear>.dxf` with each alone, its axis at the origin; the same for plates
 /// beside the gears, such as `base.dxf`; mm.
@@ -33,57 +31,66 @@ impl Default for Dxf {
     }
 }
 
+/// The file with all parts in mesh.
+const ALL: &str = "pair.dxf";
 const BORES: &str = "bores";
 const OPENINGS: &str = "openings";
 const PITCH_CURVES: &str = "pitch-curves";
 const CENTRES: &str = "centres";
 
-impl Export for Dxf {
-    fn file_names(&self, assembly: &Assembly) -> Vec<String> {
-        let gears = assembly.gears.iter().map(|g| g.gear.name.as_str());
-        let plates =
-            assembly.fixtures.iter().filter(|f| flat(f).is_some()).map(|f| f.name.as_str());
-        let alone = gears.chain(plates).map(|name| format!("{name}.dxf"));
-        std::iter::once("pair.dxf".to_owned()).chain(alone).collect()
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "dxf",
+    files: &[(
+        &["pair.dxf", "driver.dxf", "follower.dxf"],
+        "CAD and laser cutters: closed contours with true arcs (`--dxf-polyline`, `--dxf-r12`); `base.dxf` with `--base`",
+    )],
+    encoders: |options| {
+        vec![Box::new(Dxf {
+            polyline: options.dxf_polyline,
+            r12: options.dxf_r12,
+            tolerance: options.curve_tolerance,
+        })]
+    },
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let paths: Vec<PathBuf> =
-            self.file_names(parts.assembly).iter().map(|name| folder.join(name)).collect();
-        let encode = |path: &Path, why: String| ExportError::Encode { path: path.to_owned(), why };
-        let drawn: Vec<Drawn> = parts
-            .assembly
-            .gears
-            .iter()
-            .map(|g| self.drawn(g).map_err(|why| encode(&paths[0], why)))
-            .collect::<Result<_, _>>()?;
+impl Encode for Dxf {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let failed = |why: String| EncodeError::new(ALL, why);
         let gears = &parts.assembly.gears;
-        let plates: Vec<Plate> = parts
+        let drawn: Vec<Drawn> =
+            gears.iter().map(|g| self.drawn(g)).collect::<Result<_, _>>().map_err(failed)?;
+        let plates: Vec<(&str, Plate)> = parts
             .assembly
             .fixtures
             .iter()
-            .filter_map(|fixture| self.plate(fixture).transpose())
+            .filter_map(|f| Some(self.plate(f).transpose()?.map(|plate| (f.name.as_str(), plate))))
             .collect::<Result<_, _>>()
-            .map_err(|why| encode(&paths[0], why))?;
-        let mut sheets = vec![Self::sheet(gears.iter().zip(&drawn), true)];
-        sheets.extend(gears.iter().zip(&drawn).map(|g| Self::sheet([g].into_iter(), false)));
-        for plate in &plates {
+            .map_err(failed)?;
+        let mut all = Self::sheet(gears.iter().zip(&drawn), true);
+        for (_, plate) in &plates {
             // What stands on edge has no place in a picture from above.
             if let Some(shift) = plate.shift {
-                plate.draw(&mut sheets[0], shift);
+                plate.draw(&mut all, shift);
             }
         }
-        sheets.extend(plates.iter().map(|plate| {
+        let mut sheets = vec![(ALL.to_owned(), all)];
+        sheets.extend(gears.iter().zip(&drawn).map(|(placed, drawn)| {
+            let sheet = Self::sheet(std::iter::once((placed, drawn)), false);
+            (format!("{}.dxf", placed.gear.name), sheet)
+        }));
+        sheets.extend(plates.iter().map(|(name, plate)| {
             let mut sheet = Sheet::empty();
             plate.draw(&mut sheet, Point::origin());
-            sheet
+            (format!("{name}.dxf"), sheet)
         }));
-        for (path, sheet) in paths.iter().zip(&sheets) {
-            let text = if self.r12 { r12::text(sheet) } else { r2000::text(sheet) };
-            let text = text.map_err(|why| encode(path, why))?;
-            write_atomically(path, |out| out.write_all(text.as_bytes()))?;
-        }
-        Ok(paths)
+        let artifact = |(name, sheet): (String, Sheet)| {
+            let text = if self.r12 { r12::text(&sheet) } else { r2000::text(&sheet) };
+            let text = text.map_err(|why| EncodeError::new(&name, why))?;
+            Ok(Artifact::bytes(name, text))
+        };
+        sheets.into_iter().map(artifact).collect()
     }
 }
 
@@ -202,9 +209,11 @@ fn plain(name: &str) -> String {
 mod tests {
     use super::super::tests::wavy_pair;
     use super::*;
+    use crate::export::ExportError;
     use crate::geometry::curves::Arc;
     use dxf::Drawing;
     use dxf::entities::{EntityType, Vertex};
+    use std::path::Path;
 
     fn read(path: &Path) -> Drawing {
         Drawing::load_file(path).unwrap()

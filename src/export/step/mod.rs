@@ -7,7 +7,7 @@ mod entities;
 mod prism;
 
 use super::contours::{color, halves, traced};
-use super::{Export, ExportError, Parts, write_atomically};
+use super::{Artifact, Encode, EncodeError, Entry, Parts};
 use crate::assembly::{Assembly, Fixture, Gear, Post};
 use crate::geometry::curves::{Arc, Stretch, round_hole};
 use crate::geometry::{self, Point};
@@ -15,8 +15,7 @@ use crate::policy;
 use entities::{Entities, Id, text};
 use nalgebra::{Isometry3, Vector3};
 use prism::{Figure, Level, Stack, Through};
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
 
 /// `pair.step`: one product per part with its name and colour, placed in mesh, mm. A gear has its bore, its other holes,
 /// its hub, letters and marks; bevels and holes for set screws are left to the solids.
@@ -32,22 +31,27 @@ impl Default for Step {
     }
 }
 
-impl Export for Step {
-    fn file_names(&self, _: &Assembly) -> Vec<String> {
-        vec!["pair.step".to_owned()]
-    }
+/// See [`Entry`].
+pub(super) const ENTRY: Entry = Entry {
+    name: "step",
+    files: &[(
+        &["pair.step"],
+        "CAD: true curves, one product a part, placed as an assembly, with base, hub, letters and marks",
+    )],
+    aliases: &["stp"],
+    encoders: |options| vec![Box::new(Step { tolerance: options.curve_tolerance })],
+    ..Entry::PLAIN
+};
 
-    fn write(&self, parts: Parts<'_>, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        let path = folder.join("pair.step");
-        let entities = self
-            .entities(parts.assembly)
-            .map_err(|why| ExportError::Encode { path: path.clone(), why })?;
-        write_atomically(&path, |out| file(&entities, out))?;
-        Ok(vec![path])
+impl Encode for Step {
+    fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
+        let entities =
+            self.entities(parts.assembly).map_err(|why| EncodeError::new("pair.step", why))?;
+        Ok(vec![Artifact::stream("pair.step", move |out| file(&entities, out))])
     }
 }
 
-fn file(entities: &Entities, out: &mut BufWriter<std::fs::File>) -> std::io::Result<()> {
+fn file(entities: &Entities, mut out: impl Write) -> std::io::Result<()> {
     out.write_all(
         b"ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('Non-circular gears'),'2;1');\n\
           FILE_NAME('pair.step','1970-01-01T00:00:00',(''),(''),",
@@ -58,7 +62,7 @@ fn file(entities: &Entities, out: &mut BufWriter<std::fs::File>) -> std::io::Res
     out.write_all(
         b"FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n",
     )?;
-    entities.write(out)?;
+    entities.write(&mut out)?;
     out.write_all(b"ENDSEC;\nEND-ISO-10303-21;\n")
 }
 
