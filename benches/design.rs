@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use centrode::assembly::Gear;
 use centrode::check::{CheckOptions, check, default_runs};
-use centrode::design::{DesignOptions, ToothCount, design};
 use centrode::export::{Encode, Glb, Obj, Parts, Stl, write_json};
 use centrode::fit::{self, FitOptions, Ratio, Search};
 use centrode::input::{LoadOptions, Shape, Toothed, load};
@@ -15,6 +14,7 @@ use centrode::meshing::{
     ContactInput, ContactOptions, DynamicsInput, DynamicsOptions, analyse, simulate,
 };
 use centrode::outline::{Outline, Smoothing, smooth};
+use centrode::pipeline::{DesignOptions, ToothCount, design};
 use centrode::pitch::{Centrodes, PolarCurve, Transmission};
 use centrode::report::{PictureOptions, pair_svg};
 use centrode::solid::assembly_solids;
@@ -159,7 +159,7 @@ fn whole(c: &mut Criterion) {
             for format in [&Glb::default() as &dyn Encode, &Stl, &Obj] {
                 format.write(parts, folder.path()).expect("files");
             }
-            let record = centrode::design::Record::new(&made);
+            let record = centrode::schema::Record::new(&made);
             write_json(&folder.path().join("design.json"), &record).expect("a record");
             pair_svg(&made.assembly, &PictureOptions::default()).len()
         });

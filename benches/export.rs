@@ -4,9 +4,9 @@
 use std::hint::black_box;
 use std::time::Duration;
 
-use centrode::design::{DesignOptions, ToothCount, design};
 use centrode::export::{ExportOptions, Format, Parts};
 use centrode::input::{LoadOptions, load};
+use centrode::pipeline::{DesignOptions, ToothCount, design};
 use centrode::solid::assembly_solids;
 use criterion::{Criterion, criterion_group, criterion_main};
 

@@ -5,10 +5,10 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use centrode::design::{DesignOptions, from_motion};
 use centrode::export::{Artifact, Encode, EncodeError, Parts, Stl};
 use centrode::geometry::Point;
 use centrode::law::{LawOptions, Preset};
+use centrode::pipeline::{DesignOptions, from_motion};
 use centrode::solid::assembly_solids;
 
 /// Moves the pen once round a closed curve.

@@ -8,10 +8,10 @@
 
 use anyhow::Context;
 use centrode::control::Control;
-use centrode::design::{DesignOptions, ToothCount, design};
 use centrode::geometry::Point;
 use centrode::input::{LoadOptions, load};
 use centrode::meshing::{ContactInput, ContactOptions, ContactSummary, analyse};
+use centrode::pipeline::{DesignOptions, ToothCount, design};
 use centrode::pitch::Centrodes;
 use centrode::teeth::{TeethOptions, ToothedPair, involute_pair, regular_wave_pair, wave_pair};
 use serde_json::json;

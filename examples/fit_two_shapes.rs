@@ -2,9 +2,10 @@
 //!
 //! usage: cargo run --example fit_two_shapes
 
-use centrode::design::{DesignOptions, design};
+use centrode::diagnose::Severity;
 use centrode::fit::Ratio;
 use centrode::input::{LoadOptions, load};
+use centrode::pipeline::{DesignOptions, design};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A path to an SVG, an image or a list of points would do as well.
@@ -25,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
     if !made.is_sound() {
-        return Err(made.faults.join("; ").into());
+        return Err(made.told(Severity::Fault).join("; ").into());
     }
     Ok(())
 }

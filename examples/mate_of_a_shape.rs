@@ -2,9 +2,9 @@
 //!
 //! usage: cargo run --example mate_of_a_shape
 
-use centrode::design::{DesignOptions, Scale, mate};
 use centrode::fit::Ratio;
 use centrode::input::{LoadOptions, load};
+use centrode::pipeline::{DesignOptions, Scale, mate};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let heart = load("heart", &LoadOptions::default())?;

@@ -4,10 +4,10 @@
 
 use centrode::assembly::{Layout, PairModel, TrainPlan};
 use centrode::control::Control;
-use centrode::design::{DesignOptions, from_motion};
 use centrode::gear::Pair;
 use centrode::law::{LawOptions, Preset};
 use centrode::meshing::train_play;
+use centrode::pipeline::{DesignOptions, from_motion};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let motion = Preset::Ellipse(0.2).transmission(&LawOptions::default())?;

@@ -2,7 +2,7 @@
 //!
 //! A tour, in the order the data flows:
 //! [`input`] reads drawings and finished gears into [`outline`]s; [`gear`] tells the two gears apart; [`pitch`] rolls curves on each other; [`fit`] finds axes and motion for two shapes, or the
-//! mate of one; [`law`] reads motions as formulas and tables; [`teeth`] lays flanks on the pitch curves; [`design`] does all
+//! mate of one; [`law`] reads motions as formulas and tables; [`teeth`] lays flanks on the pitch curves; [`pipeline`] does all
 //! of it and judges the result with [`meshing`] and [`strength`]; [`assembly`] puts pairs together to trains; [`solid`],
 //! [`export`] and [`report`] make files. [`check`] judges gears of any origin, [`gallery`] ranks many pairs, [`scene`] keeps a
 //! command's options in a file.
@@ -10,14 +10,14 @@
 //! Two shapes:
 //!
 //! ```no_run
-//! use centrode::design::{DesignOptions, design};
+//! use centrode::pipeline::{DesignOptions, design};
 //! use centrode::fit::Ratio;
 //! use centrode::input::{LoadOptions, load};
 //!
 //! let driver = load("heart", &LoadOptions::default())?;
 //! let follower = load("dove.svg", &LoadOptions::default())?;
 //! let made = design(&driver, &follower, &DesignOptions::new(Ratio::ONE))?;
-//! assert!(made.is_sound(), "{:?}", made.faults);
+//! assert!(made.is_sound(), "{:?}", made.diagnostics);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -36,7 +36,7 @@
 //! ```
 //!
 //! Lengths are mm, angles radians, torques N mm. Nothing but [`cli`] prints, and only [`cli`], [`input::load`], [`export`],
-//! [`design::SavedDesign::read`] and [`design::read_train`] touch files.
+//! [`schema::SavedDesign::read`] and [`schema::read_train`] touch files.
 
 // The command line is written as any other program on the library is.
 extern crate self as centrode;
@@ -45,7 +45,6 @@ pub mod assembly;
 pub mod check;
 pub mod cli;
 pub mod control;
-pub mod design;
 pub mod diagnose;
 pub mod export;
 pub mod fit;
@@ -56,10 +55,12 @@ pub mod input;
 pub mod law;
 pub mod meshing;
 pub mod outline;
+pub mod pipeline;
 pub mod pitch;
 pub mod policy;
 pub mod report;
 pub mod scene;
+pub mod schema;
 pub mod solid;
 pub mod strength;
 #[cfg(feature = "studio")]

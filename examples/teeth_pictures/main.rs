@@ -8,9 +8,9 @@ use std::f64::consts::TAU;
 
 use anyhow::Context;
 use canvas::{Canvas, DARK, FAINT, INK, LIGHT, ORANGE, RED};
-use centrode::design::{Design, DesignOptions, ToothCount, design};
 use centrode::geometry::{Point, Vector, quarter_turn, rotate};
 use centrode::input::{LoadOptions, load};
+use centrode::pipeline::{Design, DesignOptions, ToothCount, design};
 use centrode::pitch::Centrodes;
 use centrode::teeth::{
     Profile, TeethOptions, ToothedPair, involute_pair, regular_wave_pair, wave_pair,

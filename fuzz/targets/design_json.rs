@@ -3,7 +3,7 @@
 
 use centrode::assembly::{Layout, TrainPlan};
 use centrode::check::{CheckOptions, check};
-use centrode::design::SavedDesign;
+use centrode::schema::SavedDesign;
 use centrode::export::{Animation, Encode, ExportOptions, Format, Parts};
 use centrode::meshing::ContactOptions;
 use centrode::gear::Side;

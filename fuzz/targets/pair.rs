@@ -1,9 +1,9 @@
 //! Two polygons to a pair of gears, its solids and its record.
 #![no_main]
 
-use centrode::design::{
-    Design, DesignOptions, RECORD_NAME, Record, SavedDesign, TeethStyle, ToothCount, design,
-};
+use centrode::diagnose::Severity;
+use centrode::pipeline::{Design, DesignOptions, TeethStyle, ToothCount, design};
+use centrode::schema::{RECORD_NAME, Record, SavedDesign};
 use centrode::export::write_json;
 use centrode::fit::Search;
 use centrode::geometry::{self, Point};
@@ -67,7 +67,7 @@ fuzz_target!(|data: &[u8]| {
 });
 
 fn judged(made: &Design) {
-    made.faults.iter().for_each(|fault| remedied(fault));
+    made.told(Severity::Fault).iter().for_each(|fault| remedied(fault));
     for placed in &made.assembly.gears {
         finite(&placed.gear.outline);
         finite(&placed.gear.pitch_curve);

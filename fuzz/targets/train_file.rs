@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
-use centrode::design::train_from_toml;
+use centrode::schema::{train_from_toml};
 use centrode_fuzz::{finite, folder, remedied, told};
 use libfuzzer_sys::fuzz_target;
 

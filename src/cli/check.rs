@@ -29,6 +29,7 @@ pub(crate) fn run(args: &CheckArgs) -> anyhow::Result<Outcome> {
         thickness: args.thickness,
         ..defaults
     };
+    let progress = Progress::new();
     let options = CheckOptions {
         center_distance: args.center_distance,
         axes: [args.driver_axis, args.follower_axis],
@@ -36,9 +37,9 @@ pub(crate) fn run(args: &CheckArgs) -> anyhow::Result<Outcome> {
         phase: args.phase,
         motion,
         runs: if args.no_simulate { Vec::new() } else { default_runs(&run, args.both) },
+        control: progress.control(),
         ..CheckOptions::default()
     };
-    let progress = Progress::new();
     progress.doing("reading the gears");
     let driver = load_toothed(&args.driver, Side::Driver)?;
     let follower = load_toothed(&args.follower, Side::Follower)?;

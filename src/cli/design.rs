@@ -3,10 +3,10 @@
 use std::io::Write as _;
 use std::time::Instant;
 
-use centrode::design::{DesignOptions, design};
 use centrode::export::{Staging, check_folder, check_inputs, write_json};
 use centrode::fit::{FitOptions, Fixed, Limits, Ratio, Search, alternatives};
 use centrode::input::Shape;
+use centrode::pipeline::{DesignOptions, Request};
 use centrode::report::Alternatives;
 
 use super::Outcome;
@@ -38,7 +38,8 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     }
     args.pair.making().check_place(inputs)?;
     progress.doing(format!("fitting {} to {}", driver.name, follower.name));
-    let made = design(&driver, &follower, &options)?;
+    let request = Request::two_shapes(driver, follower).with(options);
+    let made = request.design(&progress.control())?;
     args.pair.making().deliver(&made, inputs, &progress, start)
 }
 
@@ -56,8 +57,14 @@ fn choices(
     check_inputs(inputs.paths, inputs.what, folder, &CHOICES)?;
     progress.doing(format!("fitting {} to {}", driver.name, follower.name));
     let shapes = [&driver.outline, &follower.outline];
-    let fits =
-        alternatives(shapes[0], shapes[1], options.ratio, &options.fit, count, &options.control)?;
+    let fits = alternatives(
+        shapes[0],
+        shapes[1],
+        options.ratio,
+        &options.fit,
+        count,
+        &progress.control(),
+    )?;
     let page = Alternatives {
         names: [&driver.name, &follower.name],
         shapes,

@@ -1,8 +1,8 @@
 //! `centrode export`: more formats of a design that was made before.
 
 use anyhow::bail;
-use centrode::design::SavedDesign;
 use centrode::export::{Format, Parts, Staging, check_folder};
+use centrode::schema::SavedDesign;
 use centrode::solid::assembly_solids;
 
 use super::Outcome;

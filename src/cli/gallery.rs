@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use anyhow::{Context, anyhow, bail};
-use centrode::design::{Design, DesignOptions, RECORD_NAME, Record, design};
+use centrode::control::Control;
+use centrode::diagnose::Severity;
 use centrode::export::{
     Encode, Format, Parts, Picture, check_folder, check_inputs, prepare_folder, write_atomically,
     write_json,
@@ -18,9 +19,11 @@ use centrode::gallery::{
 use centrode::geometry::{Point, intersection_over_union};
 use centrode::input::{LoadOptions, Shape};
 use centrode::outline::Smoothing;
+use centrode::pipeline::{Design, DesignOptions, design};
 use centrode::pitch::Centrodes;
 use centrode::policy;
 use centrode::report::report_html;
+use centrode::schema::{RECORD_NAME, Record};
 use centrode::solid::assembly_solids;
 use clap::{CommandFactory, Parser};
 use rayon::prelude::*;
@@ -323,9 +326,10 @@ impl Maker<'_> {
         }));
         match attempt {
             Ok(Ok(made)) => {
-                row.verdict = made.verdict().to_owned();
+                row.verdict = made.verdict().word().to_owned();
                 row.figures = Some(Figures::of(&made));
-                row.remarks = made.faults.iter().chain(&made.warnings).cloned().collect();
+                row.remarks = made.told(Severity::Fault);
+                row.remarks.extend(made.told(Severity::Warning));
                 row.thumbnail =
                     Some(Thumbnail::of_pair(&made.assembly, &made.centrodes, job.ratio));
                 Made { row, design: Some(Box::new(made)) }
@@ -389,7 +393,7 @@ fn without_teeth(
     options: &DesignOptions,
 ) -> anyhow::Result<(Figures, Thumbnail)> {
     let fitted =
-        fit(&driver.outline, &follower.outline, options.ratio, &options.fit, &options.control)?;
+        fit(&driver.outline, &follower.outline, options.ratio, &options.fit, Control::unwatched())?;
     let centrodes = Centrodes { transmission: fitted.transmission.clone(), center_distance: 1.0 };
     let curves = [
         centrodes.driver_curve(policy::PITCH_CURVE_POINTS),

@@ -5,14 +5,16 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use centrode::design::{Design, DesignOptions, RECORD_NAME, Record, Scale, TeethStyle, ToothCount};
+use centrode::diagnose::Severity;
 use centrode::export::{
     ExportError, Format, Parts, Staging, check_folder, check_inputs, write_json,
 };
 use centrode::fit::Ratio;
 use centrode::input::{LoadOptions, Shape, load};
 use centrode::outline::Smoothing;
+use centrode::pipeline::{Design, DesignOptions, Scale, TeethStyle, ToothCount};
 use centrode::report::report_html;
+use centrode::schema::{RECORD_NAME, Record};
 use centrode::solid::{Mesh, assembly_solids};
 use centrode::strength::Load;
 
@@ -137,7 +139,7 @@ impl Making<'_> {
         let [driver, follower] = &made.names;
         format!(
             "{driver} and {follower} do not make a sound pair, so nothing was written: {} ({hint})",
-            made.faults.join("; ")
+            made.told(Severity::Fault).join("; ")
         )
     }
 

@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use anyhow::Context;
-use centrode::design::{DesignOptions, mate};
 use centrode::fit::{FitOptions, Fixed, Limits};
+use centrode::pipeline::{DesignOptions, Request};
 
 use super::Outcome;
 use super::args::MateArgs;
@@ -24,11 +24,10 @@ pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
     let options = options(args);
     progress.doing(format!("making the mate of {}", shape.name));
     let (low, high) = shape.outline.bounds();
-    let made = mate(&shape, &options).with_context(|| {
-        format!(
-            "{} (drawn from {:.4},{:.4} to {:.4},{:.4})",
-            shape.name, low.x, low.y, high.x, high.y
-        )
+    let name = shape.name.clone();
+    let request = Request::one_shape(shape).with(options);
+    let made = request.design(&progress.control()).with_context(|| {
+        format!("{} (drawn from {:.4},{:.4} to {:.4},{:.4})", name, low.x, low.y, high.x, high.y)
     })?;
     making.deliver(&made, inputs, &progress, start)
 }

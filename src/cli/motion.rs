@@ -6,8 +6,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, anyhow, bail};
-use centrode::design::{DesignOptions, from_motion};
 use centrode::law::{Formula, LawOptions, Quantity, Segment, Table, from_function, from_segment};
+use centrode::pipeline::{DesignOptions, Request};
 use centrode::pitch::Transmission;
 use centrode::policy;
 
@@ -30,7 +30,8 @@ pub(crate) fn run(args: &MotionArgs) -> anyhow::Result<Outcome> {
     making.check_place(inputs)?;
     let options = options(args);
     progress.doing("laying teeth on the pitch curves");
-    let made = from_motion(transmission, names, [None, None], &options)?;
+    let request = Request::motion(transmission, names).with(options);
+    let made = request.design(&progress.control())?;
     making.deliver(&made, inputs, &progress, start)
 }
 

@@ -1,7 +1,7 @@
 //! Options for hubs, holes, lettering and the base plate.
 
-use centrode::design::BoreChoice;
-use centrode::design::outfit::{
+use centrode::pipeline::BoreChoice;
+use centrode::pipeline::outfit::{
     Base, HubChoice, Label, LabelPlace, LabelText, Lightening, Mount, Outfit, Screws,
 };
 use centrode::policy;

@@ -1,5 +1,6 @@
 //! What the program is doing, on standard error, only when that is a terminal.
 
+use centrode::control::{Control, StageName};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::OnceLock;
@@ -22,7 +23,7 @@ pub(crate) fn is_silent() -> bool {
 }
 
 /// A line that says what is being done.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
@@ -42,6 +43,22 @@ impl Progress {
     /// Says what comes next.
     pub(crate) fn doing(&self, what: impl Into<String>) {
         self.0.set_message(what.into());
+    }
+
+    /// A control under which the stages of a design say how far they are.
+    pub(crate) fn control(&self) -> Control {
+        let shown = self.clone();
+        Control::new().with_progress(move |p| {
+            let doing = match p.stage {
+                StageName::Wanted => "fitting",
+                StageName::Sized => "sizing the pitch curves",
+                StageName::Toothed => "laying teeth on the pitch curves",
+                StageName::Analysed => "analysing the contact",
+                StageName::Proven => "running the gears",
+                StageName::Outfitted => "fitting out the gears",
+            };
+            shown.doing(format!("{doing}, {:.0} %", 100.0 * p.done));
+        })
     }
 
     /// Says something that stays, unless only errors may be said.

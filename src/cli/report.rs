@@ -4,11 +4,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use centrode::design::{BoreChoice, Design, run_record};
-use centrode::diagnose::Verdict;
+use centrode::diagnose::{Severity, Verdict, of_severity};
 use centrode::gear::Motion;
 use centrode::meshing::ContactPose;
-use centrode::report::{Note, NoteKind, Plot, ReportData, Section};
+use centrode::pipeline::{BoreChoice, Design};
+use centrode::report::{Plot, ReportData, Section};
+use centrode::schema::run_record;
 use centrode::solid::{PrintFinding, print_findings};
 use serde_json::json;
 
@@ -32,9 +33,10 @@ pub(crate) fn summary(
             "folder": folder,
             "files": files,
             "verdict": made.verdict(),
-            "faults": made.faults,
-            "warnings": made.warnings,
-            "steps": made.steps,
+            "faults": made.told(Severity::Fault),
+            "warnings": made.told(Severity::Warning),
+            "steps": made.told(Severity::Note),
+            "diagnostics": made.diagnostics,
             "teeth": made.teeth,
             "module": made.pair.module,
             "center_distance": made.centrodes.center_distance,
@@ -134,14 +136,12 @@ pub(crate) fn summary(
     for line in made.proof.iter().flat_map(super::proof::lines) {
         writeln!(out, "{line}")?;
     }
-    for step in &made.steps {
-        writeln!(out, "step: {step}")?;
-    }
-    for warning in &made.warnings {
-        writeln!(out, "warning: {warning}")?;
-    }
-    for fault in &made.faults {
-        writeln!(out, "not sound: {fault}")?;
+    let words =
+        [(Severity::Note, "step"), (Severity::Warning, "warning"), (Severity::Fault, "not sound")];
+    for (severity, word) in words {
+        for found in of_severity(&made.diagnostics, severity) {
+            writeln!(out, "{word}: {found}")?;
+        }
     }
     writeln!(
         out,
@@ -172,26 +172,14 @@ fn bore(made: &Design) -> Option<String> {
 
 /// The page's text and plots.
 pub(crate) fn page(made: &Design, command: String) -> ReportData {
-    let verdict = match (made.is_sound(), made.warnings.is_empty()) {
-        (false, _) => Verdict::Unsound,
-        (true, true) => Verdict::Good,
-        (true, false) => Verdict::Warnings,
-    };
+    let verdict = made.verdict();
     let summary = match verdict {
         Verdict::Good => {
             "Contact is never lost and nothing overlaps through the whole cycle.".to_owned()
         }
-        Verdict::Warnings => made.warnings.join(" "),
-        Verdict::Unsound => made.faults.join(" "),
+        Verdict::Warnings => made.told(Severity::Warning).join(" "),
+        Verdict::Unsound => made.told(Severity::Fault).join(" "),
     };
-    let notes = made
-        .steps
-        .iter()
-        .map(|text| (NoteKind::Step, text))
-        .chain(made.warnings.iter().map(|text| (NoteKind::Warning, text)))
-        .chain(made.faults.iter().map(|text| (NoteKind::Fault, text)))
-        .map(|(kind, text)| Note::new(kind, text.as_str()))
-        .collect();
     ReportData {
         title: format!("{} and {}", made.names[0], made.names[1]),
         command,
@@ -220,7 +208,7 @@ pub(crate) fn page(made: &Design, command: String) -> ReportData {
                 )
             })
             .unwrap_or_default(),
-        notes,
+        notes: made.diagnostics.iter().map(Into::into).collect(),
     }
 }
 

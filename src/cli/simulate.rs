@@ -1,16 +1,15 @@
 //! `centrode simulate`: a saved design run again as rigid bodies.
 
-use centrode::control::Control;
 use std::io::Write;
 
 use anyhow::Context;
-use centrode::design::{SavedDesign, run_record};
 use centrode::diagnose::{Limits, Severity, of_severity, sentences};
 use centrode::export::Staging;
 use centrode::meshing::{
     ContactInput, ContactOptions, DynamicsInput, MeshingReport, analyse, prove,
 };
 use centrode::report::{ReportData, Section, report_html};
+use centrode::schema::{SavedDesign, run_record};
 use serde_json::json;
 
 use super::args::SimulateArgs;
@@ -23,6 +22,7 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::new();
     progress.doing("working out the contact");
     let motion = saved.motion().with_context(|| args.design.display().to_string())?;
+    let control = progress.control();
     let [driver, follower] = &saved.gears;
     let contact = ContactInput {
         driver: &driver.outline,
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
         center_distance: saved.center_distance,
         module: saved.module,
         motion: &motion,
-        control: Control::unwatched(),
+        control: &control,
     };
     let analysis = analyse(&contact, &ContactOptions::default())?;
     progress.doing("running the gears");

@@ -4,9 +4,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use centrode::design::{Design, DesignOptions};
 use centrode::export::{ExportError, Staging};
 use centrode::input::LoadOptions;
+use centrode::pipeline::{Design, DesignOptions};
 use centrode::pitch::Transmission;
 use centrode::solid::assembly_solids;
 use clap::{Args, Parser, ValueHint};

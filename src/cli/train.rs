@@ -8,7 +8,6 @@ use centrode::assembly::{
     Assembly, Bent, BentChain, Layout, PairModel, Train, TrainError, TrainPlan,
 };
 use centrode::control::Control;
-use centrode::design::{SavedDesign, read_train};
 use centrode::diagnose::{Severity, Verdict};
 use centrode::export::{ExportError, Format, Mjcf, Parts, Staging, check_folder, write_json};
 use centrode::meshing::{
@@ -17,6 +16,7 @@ use centrode::meshing::{
 };
 use centrode::policy;
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section, report_html};
+use centrode::schema::{SavedDesign, read_train};
 use centrode::solid::assembly_solids;
 use clap::{Args, ValueEnum};
 use serde_json::json;

@@ -1,9 +1,9 @@
 //! Lengths and angles as people type them.
 
-use centrode::design::outfit::{Base, Hold, LabelPlace, Mount};
 use centrode::fit::Ratio;
 use centrode::gallery::Shard;
 use centrode::geometry::Point;
+use centrode::pipeline::outfit::{Base, Hold, LabelPlace, Mount};
 use centrode::policy;
 use centrode::solid::hardware::{Bearing, Clearance, Screw};
 use centrode::solid::{Bore, BoreName, Fit};

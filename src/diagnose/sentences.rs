@@ -63,7 +63,7 @@ impl fmt::Display for Diagnostic {
                 let done: Vec<String> = slope.into_iter().chain(radius).collect();
                 write!(
                     f,
-                    "{}: transmission error {:.2} % of a pitch instead of {:.2} %",
+                    "gentler teeth, {}: transmission error {:.2} % of a pitch instead of {:.2} %",
                     done.join(" and "),
                     percent("after"),
                     percent("before")

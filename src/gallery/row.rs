@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Thumbnail;
-use crate::design::Design;
+use crate::pipeline::Design;
 
 /// One pair: what became of it. Says nothing of the time it took, so that the same pair gives the same row anywhere.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

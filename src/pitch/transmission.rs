@@ -46,7 +46,7 @@ pub enum TransmissionError {
 /// differentiable) and psi is its exact integral, so that psi, its derivatives
 /// and its inverse always agree to rounding. Angles are radians; every function
 /// takes any real angle and costs O(1), [`Self::inverse`] O(log n).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Transmission {
     spline: Arc<Spline>,
     driver_fold: u32,
@@ -72,7 +72,7 @@ impl Motion for Transmission {
 }
 
 /// The periodic spline of psi' and its running integral.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 struct Spline {
     step: f64,
     period: f64,

@@ -5,12 +5,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use centrode::control::Control;
-use centrode::design::{
-    Design, DesignError, DesignOptions, Drawn, Scale, ToothCount, design, from_motion, mate,
-};
 use centrode::fit::{self, Fit, FitError, FitOptions, Fixed, LimitError, Ratio};
 use centrode::geometry::{self, Point};
 use centrode::input::{LoadOptions, Shape};
+use centrode::pipeline::{Design, DesignOptions, PipelineError, Request, Scale, ToothCount};
 use centrode::pitch::{Centrodes, Transmission};
 use centrode::teeth::{self, TeethOptions};
 use serde_json::Value;
@@ -53,15 +51,15 @@ impl From<DrawingError> for Stopped {
     }
 }
 
-impl From<DesignError> for Stopped {
-    fn from(error: DesignError) -> Self {
+impl From<PipelineError> for Stopped {
+    fn from(error: PipelineError) -> Self {
         let text = error.to_string();
         let (option, remedy) = match &error {
-            DesignError::Option { name, .. } => (option_named(name), None),
-            DesignError::Fit(error) => blamed_of_fit(error),
-            DesignError::Limit(error) => blamed_of_limit(error),
-            DesignError::Outfit(_) => (Some("outfit"), None),
-            DesignError::Solid(_) => (Some("bore"), None),
+            PipelineError::Option { name, .. } => (option_named(name), None),
+            PipelineError::Fit(error) => blamed_of_fit(error),
+            PipelineError::Limit(error) => blamed_of_limit(error),
+            PipelineError::Outfit(_) => (Some("outfit"), None),
+            PipelineError::Solid(_) => (Some("bore"), None),
             _ => (None, None),
         };
         Self::Refused { option: option.map(str::to_owned), text, remedy }
@@ -70,7 +68,7 @@ impl From<DesignError> for Stopped {
 
 impl From<FitError> for Stopped {
     fn from(error: FitError) -> Self {
-        DesignError::Fit(error).into()
+        PipelineError::Fit(error).into()
     }
 }
 
@@ -206,9 +204,7 @@ impl Engine {
                 Err(Stopped::Newer)
             }
         };
-        let mut plan = plan(&words::of(state, "out"))?;
-        plan.options.control = control.clone();
-        let plan = plan;
+        let plan = plan(&words::of(state, "out"))?;
         let wanted = wanted(state, &plan.origin)?;
         let shapes = self.shapes(drawings, &wanted, &plan.load)?;
         let seen = [shapes.first(), shapes.get(1)].map(|s| s.map(AsRef::as_ref));
@@ -217,9 +213,9 @@ impl Engine {
             say(Stage::Read, wire::read(seen))?;
             self.told = Some(now);
         }
-        let sized = self.sized(&plan, &wanted, seen, live, &mut say)?;
+        let sized = self.sized(&plan, &wanted, seen, (live, control), &mut say)?;
         let count = self.count(&plan.options, &sized);
-        if let Some((pair, teeth)) = teeth_of(&sized, &plan.options, count) {
+        if let Some((pair, teeth)) = teeth_of(&sized, &plan.options, count, control) {
             say(Stage::Toothed, wire::toothed(&pair, teeth))?;
         }
         if live {
@@ -227,11 +223,11 @@ impl Engine {
         }
         let quick = DesignOptions { runs: Vec::new(), ..plan.options.clone() };
         if !plan.options.runs.is_empty() {
-            let made = made(&plan.origin, seen, &quick)?;
+            let made = made(&plan.origin, &shapes, &quick, control)?;
             self.teeth = Some(made.teeth[0]);
             say(Stage::Analysed, wire::analysed(&made))?;
         }
-        let made = made(&plan.origin, seen, &plan.options)?;
+        let made = made(&plan.origin, &shapes, &plan.options, control)?;
         self.teeth = Some(made.teeth[0]);
         let data = wire::proven(&made);
         finished.keep(state, Arc::new(made));
@@ -250,8 +246,7 @@ impl Engine {
         }
         let wanted = wanted(state, &plan.origin)?;
         let shapes = self.shapes(drawings, &wanted, &plan.load)?;
-        let seen = [shapes.first(), shapes.get(1)].map(|s| s.map(AsRef::as_ref));
-        Ok(Arc::new(made(&plan.origin, seen, &plan.options)?))
+        Ok(Arc::new(made(&plan.origin, &shapes, &plan.options, Control::unwatched())?))
     }
 
     fn shapes(
@@ -285,11 +280,10 @@ impl Engine {
         plan: &Plan,
         wanted: &[DrawingRef],
         seen: [Option<&Shape>; 2],
-        live: bool,
+        (live, control): (bool, &Control),
         say: &mut dyn FnMut(Stage, Value) -> Result<(), Stopped>,
     ) -> Result<Centrodes, Stopped> {
         let options = &plan.options;
-        let control = &options.control;
         match (&plan.origin, seen) {
             (Origin::Two, [Some(driver), Some(follower)]) => {
                 let drawings = [wanted[0].clone(), wanted[1].clone()];
@@ -368,9 +362,8 @@ impl Engine {
             (Origin::One, [Some(shape), _]) => {
                 let mated = fit::mate(&shape.outline, options.ratio, &options.fit, control)?;
                 let centrodes = scaled(mated.transmission, options.scale);
-                let drawn = Drawn { shape, gear: mated.driver };
                 let fitted =
-                    wire::Fitted { shapes: seen, drawings: [Some(drawn.gear), None], fit: None };
+                    wire::Fitted { shapes: seen, drawings: [Some(mated.driver), None], fit: None };
                 say(Stage::Sized, wire::sized(&centrodes, &fitted, false))?;
                 Ok(centrodes)
             }
@@ -414,17 +407,21 @@ fn wanted(state: &State, origin: &Origin) -> Result<Vec<DrawingRef>, Stopped> {
 
 fn made(
     origin: &Origin,
-    seen: [Option<&Shape>; 2],
+    shapes: &[Arc<Shape>],
     options: &DesignOptions,
+    control: &Control,
 ) -> Result<Design, Stopped> {
-    Ok(match (origin, seen) {
-        (Origin::Two, [Some(driver), Some(follower)]) => design(driver, follower, options)?,
-        (Origin::One, [Some(shape), _]) => mate(shape, options)?,
+    let request = match (origin, shapes) {
+        (Origin::Two, [driver, follower]) => {
+            Request::two_shapes(Arc::clone(driver), Arc::clone(follower))
+        }
+        (Origin::One, [shape, ..]) => Request::one_shape(Arc::clone(shape)),
         (Origin::Motion(transmission, names), _) => {
-            from_motion(transmission.clone(), names.clone(), [None, None], options)?
+            Request::motion(transmission.clone(), names.clone())
         }
         _ => return Err(nothing_given()),
-    })
+    };
+    Ok(request.with(options.clone()).design(control)?)
 }
 
 fn scaled(transmission: Transmission, scale: Scale) -> Centrodes {
@@ -446,6 +443,7 @@ fn teeth_of(
     sized: &Centrodes,
     options: &DesignOptions,
     count: u32,
+    control: &Control,
 ) -> Option<(teeth::ToothedPair, [u32; 2])> {
     let t = &sized.transmission;
     let wanted = TeethOptions {
@@ -453,7 +451,7 @@ fn teeth_of(
         pressure_angle: options.pressure_angle,
         addendum: options.addendum,
         backlash: options.backlash,
-        control: options.control.clone(),
+        control: control.clone(),
         ..TeethOptions::default()
     };
     let pair = teeth::involute_pair(sized, &wanted).ok()?;

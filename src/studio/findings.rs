@@ -1,6 +1,7 @@
 //! What was found of a pair, each with its place and its remedy where it has one.
 
-use centrode::design::Design;
+use centrode::diagnose::{Severity, of_severity};
+use centrode::pipeline::Design;
 use serde::Serialize;
 
 use super::protocol::Remedy;
@@ -18,37 +19,20 @@ pub(super) struct Finding {
 
 /// Good, with warnings, or not sound.
 pub(super) fn verdict(made: &Design) -> &'static str {
-    match (made.is_sound(), made.warnings.is_empty()) {
-        (false, _) => "unsound",
-        (true, false) => "warnings",
-        (true, true) => "good",
-    }
+    made.verdict().word()
 }
 
 /// Faults first, then warnings, then what was done.
 pub(super) fn all(made: &Design) -> Vec<Finding> {
-    let one = |kind: &'static str, texts: &[String]| -> Vec<Finding> {
-        texts
-            .iter()
-            .map(|text| Finding {
-                kind,
-                text: text.clone(),
-                angle: angle_in(text),
-                remedies: if kind == "step" { Vec::new() } else { remedies(text, made) },
-            })
-            .collect()
+    let of = |severity, kind: &'static str| {
+        of_severity(&made.diagnostics, severity).map(move |found| {
+            let text = found.to_string();
+            let remedies = if kind == "step" { Vec::new() } else { remedies(&text, made) };
+            Finding { kind, angle: found.driver_angle(), remedies, text }
+        })
     };
-    let mut all = one("fault", &made.faults);
-    all.extend(one("warning", &made.warnings));
-    all.extend(one("step", &made.steps));
-    all
-}
-
-/// The angle in "at 123 degrees".
-fn angle_in(text: &str) -> Option<f64> {
-    let (_, after) = text.rsplit_once(" at ").filter(|(_, a)| a.contains(" degrees"))?;
-    let number = after.split(" degrees").next()?;
-    number.trim().parse::<f64>().ok().map(f64::to_radians)
+    let faults = of(Severity::Fault, "fault");
+    faults.chain(of(Severity::Warning, "warning")).chain(of(Severity::Note, "step")).collect()
 }
 
 /// Settings that the sentence names, moved the way it says.
@@ -77,24 +61,9 @@ fn remedies(text: &str, made: &Design) -> Vec<Remedy> {
     if text.contains("more clearance") {
         found.push(remedy("clearance", (options.clearance * 1.5).max(0.05), 3));
     }
-    if (text.contains("max-lean") || text.contains("less lean") || text.contains("bind"))
-        && lean > 25.0
+    if (text.contains("max-lean") || text.contains("slope") || text.contains("bind")) && lean > 25.0
     {
         found.push(remedy("max-lean", (lean - 7.0).max(20.0), 0));
     }
     found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_place_is_read_from_the_sentence() {
-        let at = angle_in(
-            "the working pressure angle reaches 71 degrees at 90 degrees of driver turn: it may bind",
-        );
-        assert!((at.unwrap() - std::f64::consts::FRAC_PI_2).abs() < 1e-9);
-        assert_eq!(angle_in("lean held to 50 degrees"), None);
-    }
 }

@@ -1,13 +1,13 @@
 //! Stages as the page is told of them. Rings are flat lists x, y, x, y in mm; angles are radians.
 
 use centrode::assembly::Assembly;
-use centrode::design::Design;
 use centrode::export::Format;
 use centrode::fit::{Fit, FittedGear};
 use centrode::gear::Motion;
 use centrode::geometry::{self, Point};
 use centrode::input::Shape;
 use centrode::meshing::{Direction, Drive, Dynamics, MeshingReport};
+use centrode::pipeline::Design;
 use centrode::pitch::Centrodes;
 use centrode::report::contact_frames;
 use centrode::teeth::ToothedPair;

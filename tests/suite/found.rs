@@ -2,12 +2,12 @@
 //! line, in no time.
 
 use centrode::check::{CheckOptions, check};
-use centrode::design::SavedDesign;
 use centrode::gear::Side;
 use centrode::input::{LoadOptions, shape_from_bytes, toothed_from_bytes};
 use centrode::law::{Quantity, Table};
 use centrode::outline::Outline;
 use centrode::scene::{Key, Kind, read, write};
+use centrode::schema::SavedDesign;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -141,6 +141,6 @@ fn a_scene_is_quoted_in_one_plain_line() {
 fn files_without_an_end_are_read_no_further_than_their_bound() {
     let error = SavedDesign::read(Path::new("/dev/zero")).unwrap_err().to_string();
     assert!(error.contains("more than") && !error.contains(char::is_control), "{error}");
-    let error = centrode::design::read_train(Path::new("/dev/zero")).unwrap_err().to_string();
+    let error = centrode::schema::read_train(Path::new("/dev/zero")).unwrap_err().to_string();
     assert!(error.contains("more than"), "{error}");
 }

@@ -1,9 +1,9 @@
 //! The library: load, fit, design, without touching a folder.
 
 use centrode::control::Control;
-use centrode::design::{DesignOptions, design};
 use centrode::fit::{FitOptions, Ratio, Search, fit};
 use centrode::input::{LoadOptions, Shape, load};
+use centrode::pipeline::{DesignOptions, design};
 
 fn shape(name: &str) -> Shape {
     load(name, &LoadOptions::default()).unwrap()
@@ -13,7 +13,7 @@ fn shape(name: &str) -> Shape {
 fn two_names_become_gears_in_a_dozen_lines() {
     let (driver, follower) = (shape("egg"), shape("drop"));
     let made = design(&driver, &follower, &DesignOptions::new(Ratio::ONE)).unwrap();
-    assert!(made.is_sound(), "{:?}", made.faults);
+    assert!(made.is_sound(), "{:?}", made.diagnostics);
     assert_eq!(made.names, ["egg", "drop"]);
     assert_eq!(made.teeth[0], made.teeth[1]);
     let [first, second] = &made.assembly.gears[..] else { panic!("not two gears") };

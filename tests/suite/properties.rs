@@ -3,11 +3,11 @@
 //! The same cases every time; `PROPTEST_CASES=200 PROPTEST_RNG_SEED=7 cargo test --release properties` draws others.
 
 use centrode::assembly::PlacedGear;
-use centrode::design::{Design, DesignOptions, ToothCount, design};
 use centrode::fit::{Ratio, Search};
 use centrode::geometry::{self, Point};
 use centrode::input::Shape;
 use centrode::outline::{Outline, repaired};
+use centrode::pipeline::{Design, DesignOptions, ToothCount, design};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::f64::consts::TAU;
@@ -122,7 +122,6 @@ fn judged(made: &Design) -> Result<(), TestCaseError> {
         prop_assert!(geometry::signed_area(ring) > 0.0);
         prop_assert_eq!(geometry::first_self_crossing(ring), None);
     }
-    prop_assert!(made.faults.iter().all(|f| f.contains(';')), "{:?}", made.faults);
     if !made.is_sound() {
         return Ok(());
     }

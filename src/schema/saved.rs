@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::fittings_record::{FittingsRecord, FixtureRecord};
+use super::fittings::{FittingsRecord, FixtureRecord};
 use crate::assembly::{Assembly, Fixture, Gear, PlacedGear};
 use crate::gear::{MotionError, SampledMotion};
 use crate::geometry::{self, Point};
@@ -172,7 +172,7 @@ impl SavedDesign {
         SampledMotion::new(&self.driver_angle, &self.follower_angle)
     }
 
-    /// The gears on their axes with their motion, as [`super::design`] left them.
+    /// The gears on their axes with their motion, as [`crate::pipeline::design`] left them.
     #[must_use]
     pub fn assembly(&self) -> Assembly {
         let [driver, follower] = self.gears.clone();
@@ -339,9 +339,10 @@ pub(super) fn within_reach(points: &[Point]) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{DesignOptions, Record, ToothCount, design};
+    use super::super::Record;
     use super::*;
     use crate::input::{LoadOptions, load};
+    use crate::pipeline::{DesignOptions, ToothCount, design};
 
     fn square(side: f64) -> Value {
         serde_json::json!([[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]])

@@ -1,7 +1,7 @@
 //! What may be asked for.
 
-use crate::design::BoreChoice;
 use crate::geometry::{LetteringError, Point, lettering};
+use crate::pipeline::BoreChoice;
 use crate::policy;
 use crate::solid::hardware::{Bearing, Screw};
 use crate::solid::{Fit, NOZZLE, NotAScrew};

@@ -1,7 +1,8 @@
 //! What a design can be told, and why it may fail.
 
 use super::outfit::{Outfit, OutfitError};
-use crate::control::Control;
+use crate::control::Cancelled;
+use crate::diagnose::Limits;
 use crate::fit::{FitError, FitOptions, LimitError, Ratio};
 use crate::law::Segment;
 use crate::meshing::ContactError;
@@ -93,16 +94,15 @@ pub struct DesignOptions {
     /// Rigid-body runs that the finished pair must pass; none by default. With `repair`, gentler
     /// settings are tried when it does not.
     pub runs: Vec<DynamicsOptions>,
-    /// Judge the pair at the poses of a trial only, and do not relieve it: three times faster, for
-    /// galleries.
+    /// Judge the pair at the poses of a trial only: faster, for galleries.
     pub quick: bool,
     /// Cut the gears to the teeth that mesh while the driver turns through this segment, and let the pair swing through
     /// it. The pair is designed, analysed and run as whole gears first; the contact of the sectors is judged by itself.
     pub sector: Option<Segment>,
     /// Load for the look at strength; the runs have their own.
     pub load: Load,
-    /// Who may stop the work and hears how far it is.
-    pub control: Control,
+    /// Where the pair fails.
+    pub limits: Limits,
 }
 
 impl DesignOptions {
@@ -133,7 +133,7 @@ impl DesignOptions {
             quick: false,
             sector: None,
             load: Load::default(),
-            control: Control::unwatched().clone(),
+            limits: Limits::of_design(),
         }
     }
 }
@@ -147,7 +147,10 @@ impl Default for DesignOptions {
 
 /// Why shapes or a motion did not become gears.
 #[derive(Debug, thiserror::Error)]
-pub enum DesignError {
+pub enum PipelineError {
+    /// The work was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// An option lies outside its range.
     #[error("{name} is {value}; {remedy}")]
     Option {
@@ -182,4 +185,22 @@ pub enum DesignError {
     /// A solid could not be made.
     #[error(transparent)]
     Solid(#[from] SolidError),
+}
+
+impl PipelineError {
+    /// Whether the work was stopped by its [`crate::control::Control`], in whatever stage.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        matches!(
+            self,
+            Self::Cancelled(_)
+                | Self::Fit(FitError::Cancelled(_))
+                | Self::Teeth(TeethError::Cancelled(_))
+                | Self::Contact(ContactError::Cancelled(_))
+                | Self::Dynamics(
+                    DynamicsError::Cancelled(_)
+                        | DynamicsError::Contact(ContactError::Cancelled(_))
+                )
+        )
+    }
 }

@@ -19,6 +19,8 @@ pub use options::{
 };
 
 use crate::assembly::{Assembly, Gear, PlacedGear};
+use crate::control::StageName;
+use crate::diagnose::{Code, Diagnostic};
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
 use crate::solid::circle;
@@ -33,7 +35,7 @@ pub fn fit_out(
     outfit: &Outfit,
     names: &[String],
     module: f64,
-) -> Result<Vec<String>, OutfitError> {
+) -> Result<Vec<Diagnostic>, OutfitError> {
     let mut warnings = Vec::new();
     outfit.check(assembly.thickness)?;
     let partners: Vec<Option<Vector>> = (0..assembly.gears.len())
@@ -58,19 +60,24 @@ pub fn fit_out(
             && let Some(towards) = partners[i]
             && !phase::add(gear, towards, module, &mut taken)
         {
-            warnings.push(format!("the {} has no room for a phase mark", gear.name));
+            warnings.push(warning(Code::NoPhaseMark, gear));
         }
         if let Some(choice) = &outfit.label {
-            warnings.extend(label::add(gear, choice, i, names, &mut taken)?);
+            let left_out = label::add(gear, choice, i, names, &mut taken)?;
+            warnings.extend(left_out.map(|code| warning(code, gear)));
         }
         let towards = partners[i].unwrap_or_else(Vector::x);
         if !lightening::add(gear, outfit.lightening, towards, module, &taken) {
-            warnings.push(format!("the {} has no room for lightening holes", gear.name));
+            warnings.push(warning(Code::NoLightening, gear));
         }
     }
     assembly.fixtures.extend(base::parts(assembly, outfit)?);
     assembly.fixtures.extend(parts);
     Ok(warnings)
+}
+
+fn warning(code: Code, gear: &Gear) -> Diagnostic {
+    Diagnostic::warning(code, StageName::Outfitted).about(&gear.name)
 }
 
 /// The gear that meshes with gear `i`: the next, or for the last the one before.

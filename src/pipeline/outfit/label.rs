@@ -2,12 +2,13 @@
 
 use super::{Label, LabelText, OutfitError, Taken};
 use crate::assembly::{Gear, Mark};
+use crate::diagnose::Code;
 use crate::geometry::{self, Lettering, Point, has_letter, lettering};
 use crate::outline::simplify;
 use crate::policy;
 
 /// Writes on gear number `i`. Names lose what no font has and are left out where they do not fit,
-/// with a warning.
+/// and why is told.
 ///
 /// # Errors
 /// A text of the user's own that has no room or no letters.
@@ -17,7 +18,7 @@ pub(super) fn add(
     i: usize,
     names: &[String],
     taken: &mut Taken,
-) -> Result<Option<String>, OutfitError> {
+) -> Result<Option<Code>, OutfitError> {
     let (text, own) = match &choice.text {
         LabelText::Names => (names.get(i).unwrap_or(&gear.name).clone(), false),
         LabelText::Same(text) => (text.clone(), true),
@@ -26,7 +27,7 @@ pub(super) fn add(
     let text = if own { text } else { text.chars().filter(|c| has_letter(*c)).collect() };
     let made = match lettering(&text, 1.0) {
         Err(_) if !own => {
-            return Ok(Some(format!("the {} bears no name: no font here can write it", gear.name)));
+            return Ok(Some(Code::NameUnwritable));
         }
         made => made?,
     };
@@ -38,7 +39,7 @@ pub(super) fn add(
             let (gear, least) = (gear.name.clone(), choice.height.unwrap_or(policy::LETTERS_LEAST));
             return Err(OutfitError::NoRoomForText { gear, text, least });
         }
-        return Ok(Some(format!("the {} bears no name: there is no room for it", gear.name)));
+        return Ok(Some(Code::NameHasNoRoom));
     };
     let up = if choice.raised { policy::EMBOSSING_HEIGHT } else { -policy::ENGRAVING_DEPTH };
     let at = |p: &Point| place + (p - made.low) * height;

@@ -47,7 +47,7 @@ fn names() -> Vec<String> {
     ["heart", "dove"].map(str::to_owned).to_vec()
 }
 
-fn fitted(outfit: &Outfit) -> Result<(Assembly, Vec<String>), OutfitError> {
+fn fitted(outfit: &Outfit) -> Result<(Assembly, Vec<Diagnostic>), OutfitError> {
     let mut assembly = pair(Bore::Round { diameter: 5.0 });
     let warnings = fit_out(&mut assembly, outfit, &names(), MODULE)?;
     Ok((assembly, warnings))
@@ -150,7 +150,8 @@ fn letters_stand_inside_and_leave_the_rest_alone() {
     let outfit = Outfit { label: label(LabelText::Names, true), ..Outfit::default() };
     let names = [long.to_owned(), "do\u{7}ve".to_owned()];
     let warnings = fit_out(&mut assembly, &outfit, &names, MODULE).unwrap();
-    assert!(warnings.len() == 1 && warnings[0].contains("driver"), "{warnings:?}");
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert_eq!((warnings[0].code, &*warnings[0].subject), (Code::NameHasNoRoom, "driver"));
     assert_eq!(assembly.gears[1].gear.fittings.marks.len(), 1 + 4);
 }
 

@@ -1,8 +1,9 @@
 //! What may break or bind in a pair that otherwise meshes: found, and named with its place.
 
-use crate::gear::Side;
+use super::sized::Sized;
+use crate::control::StageName;
+use crate::diagnose::{Code, Diagnostic, Place};
 use crate::geometry::{self, Point};
-use crate::pitch::Centrodes;
 use crate::policy;
 use crate::teeth::{ToothRecord, ToothShape, ToothedPair};
 
@@ -13,9 +14,10 @@ pub(super) fn tally(records: &[ToothRecord]) -> [usize; 4] {
         .map(|shape| records.iter().filter(|r| r.shape == shape).count())
 }
 
-/// Teeth that are too low to count on, and bodies too thin to hold.
-pub(super) fn warnings(centrodes: &Centrodes, pair: &ToothedPair, dedendum: f64) -> Vec<String> {
-    let mut warnings = Vec::new();
+/// Teeth that are too low to count on, and bodies too thin to hold. `dedendum` in mm.
+pub(super) fn found(sized: &Sized, pair: &ToothedPair, dedendum: f64) -> Vec<Diagnostic> {
+    let stage = StageName::Toothed;
+    let mut found = Vec::new();
     if let Some(worst) = pair
         .records
         .iter()
@@ -23,29 +25,22 @@ pub(super) fn warnings(centrodes: &Centrodes, pair: &ToothedPair, dedendum: f64)
         .min_by(|a, b| low(a).total_cmp(&low(b)))
     {
         let count = pair.records.iter().filter(|r| low(r) < 1.0).count();
-        warnings.push(format!(
-            "{count} of {} teeth are undercut so far that they hand over before the next one takes hold, worst tooth {} of the {} ({:.2} of a pitch)",
-            pair.records.len(),
-            worst.index,
-            worst.side,
-            low(worst)
-        ));
+        found.push(
+            Diagnostic::warning(Code::Undercut, stage)
+                .at(Place::Tooth { gear: worst.side, index: worst.index })
+                .with("count", count as f64)
+                .with("teeth", pair.records.len() as f64)
+                .with("share", low(worst)),
+        );
     }
-    let curves = [
-        (Side::Driver, centrodes.driver_curve(policy::PITCH_CURVE_POINTS)),
-        (Side::Follower, centrodes.follower_curve(policy::PITCH_CURVE_POINTS)),
-    ];
-    for (side, curve) in curves {
-        if let Some(place) = thin_place(&curve, dedendum + 0.5 * policy::THIN_WALL * pair.module) {
-            warnings.push(format!(
-                "the body of the {side} is thinner than {:.2} mm between its roots near ({:.1}, {:.1})",
-                policy::THIN_WALL * pair.module,
-                place.x,
-                place.y
-            ));
+    let wall = policy::THIN_WALL * pair.module;
+    for (side, curve) in sized.pitch_curves.as_ref().each() {
+        if let Some(place) = thin_place(curve, dedendum + 0.5 * wall) {
+            let warning = Diagnostic::warning(Code::ThinBody, stage);
+            found.push(warning.at(Place::point(side, place)).with("thickness", wall));
         }
     }
-    warnings
+    found
 }
 
 fn low(record: &ToothRecord) -> f64 {

@@ -1,30 +1,39 @@
 //! Gears for a part of a turn: teeth stay where they mesh within it, the rest is cut away down to a hub, and the
 //! pair swings there and back.
 
-use super::outfit::clear_radius;
-use super::{Design, DesignError};
-use crate::assembly::Gear;
+use super::PipelineError;
+use super::analysed::Analysed;
+use super::outfit::{Outfit, clear_radius};
+use crate::assembly::{Assembly, Gear};
+use crate::control::{Control, StageName};
+use crate::diagnose::{Code, Diagnostic, Place};
 use crate::gear::Side;
 use crate::geometry::{self, Point};
 use crate::law::Segment;
-use crate::meshing::{ContactOptions, poses_at};
+use crate::meshing::{ContactInput, ContactOptions, poses_at};
 use crate::pitch::Centrodes;
 use crate::policy;
 use std::f64::consts::{PI, TAU};
 
 /// Cuts both gears of a finished pair to the teeth that mesh while the driver turns through `segment`, and lets them
 /// swing through it: motion and gears begin anew where it begins. A gear that needs nearly all of its turn stays
-/// whole. The contact of what is left is judged over the segment; what fails is added to the faults.
+/// whole. The contact of what is left is judged over the segment.
 ///
 /// # Errors
 /// See [`crate::meshing::ContactError`].
-pub(super) fn cut(made: &mut Design, segment: Segment) -> Result<(), DesignError> {
-    let pitch = PI * made.pair.module;
-    let kept = Kept::of(&made.centrodes, segment, pitch);
-    let centrodes = made.centrodes.clone();
+pub(super) fn cut(
+    assembly: &mut Assembly,
+    analysed: &Analysed,
+    (segment, outfit): (Segment, &Outfit),
+    control: &Control,
+) -> Result<Vec<Diagnostic>, PipelineError> {
+    let sized = &analysed.toothed.sized;
+    let centrodes = &sized.centrodes;
+    let pitch = PI * sized.module;
+    let kept = Kept::of(centrodes, segment, pitch);
     let transmission = &centrodes.transmission;
+    let mut found = Vec::new();
     // Room for what the gear has to carry; see `outfit::hub`.
-    let outfit = &made.options.outfit;
     let asked = |bore: f64| {
         outfit.hub.map_or(0.0, |hub| {
             let wall = policy::HUB_WALL.max(policy::SET_SCREW_THREAD);
@@ -32,29 +41,27 @@ pub(super) fn cut(made: &mut Design, segment: Segment) -> Result<(), DesignError
             raised + policy::BORE_WALL
         })
     };
-    for (side, placed) in Side::BOTH.into_iter().zip(&mut made.assembly.gears) {
+    for (side, placed) in Side::BOTH.into_iter().zip(&mut assembly.gears) {
         let gear = &mut placed.gear;
-        let Some(cut) = sector(side, gear, &centrodes, &kept, &asked) else {
-            made.steps.push(format!(
-                "the {} needs nearly all of its turn for the segment and stays whole",
-                gear.name
-            ));
+        let note = |code| Diagnostic::note(code, StageName::Outfitted).at(Place::Gear(side));
+        let Some(cut) = sector(side, gear, centrodes, &kept, &asked) else {
+            found.push(note(Code::SectorWhole));
             continue;
         };
         let teeth = (centrodes.arc_length(cut.between[0], cut.between[1]) / pitch).round();
-        made.steps.push(format!(
-            "the {} was cut to {teeth} of its {} teeth, which mesh from {:.1} to {:.1} degrees of driver turn",
-            gear.name,
-            gear.teeth,
-            segment.from.to_degrees(),
-            segment.to.to_degrees()
-        ));
+        found.push(
+            note(Code::SectorCut)
+                .with("teeth", teeth)
+                .with("of", f64::from(gear.teeth))
+                .with("from", segment.from)
+                .with("to", segment.to),
+        );
         gear.outline = cut.outline;
     }
-    judge(made, segment)?;
+    found.push(judge(assembly, analysed, segment, control)?);
     // From here on both gears lie as they do where the segment begins.
     let start = [segment.from, -transmission.psi(segment.from)];
-    for (placed, angle) in made.assembly.gears.iter_mut().zip(start) {
+    for (placed, angle) in assembly.gears.iter_mut().zip(start) {
         let gear = &mut placed.gear;
         let rings = [&mut gear.outline, &mut gear.pitch_curve, &mut gear.input];
         for ring in rings.into_iter().chain(&mut gear.bore) {
@@ -64,7 +71,6 @@ pub(super) fn cut(made: &mut Design, segment: Segment) -> Result<(), DesignError
     let way = policy::MOTION_SAMPLES / 2;
     let there = |i: usize| segment.length() * i.min(2 * way - i) as f64 / way as f64;
     let driver: Vec<f64> = (0..=2 * way).map(there).collect();
-    let assembly = &mut made.assembly;
     assembly.driver_angle =
         (0..=2 * way).map(|i| segment.length() * i as f64 / way as f64).collect();
     for placed in &mut assembly.gears {
@@ -74,30 +80,41 @@ pub(super) fn cut(made: &mut Design, segment: Segment) -> Result<(), DesignError
         let turned = |x: &f64| transmission.psi(segment.from) - transmission.psi(segment.from + x);
         follower.angle = driver.iter().map(turned).collect();
     }
-    Ok(())
+    Ok(found)
 }
 
 /// Contact of the gears as they are now, over the segment.
-fn judge(made: &mut Design, segment: Segment) -> Result<(), DesignError> {
+fn judge(
+    assembly: &Assembly,
+    analysed: &Analysed,
+    segment: Segment,
+    control: &Control,
+) -> Result<Diagnostic, PipelineError> {
+    let stage = StageName::Outfitted;
     let count = policy::CONTACT_POSES;
     let angles: Vec<f64> =
         (0..=count).map(|i| segment.from + segment.length() * i as f64 / count as f64).collect();
-    let poses = made.in_mesh(|input| poses_at(&input, &ContactOptions::default(), &angles));
-    let poses = poses.transpose()?.unwrap_or_default();
-    let known = made.contact.summary.max_interference.as_ref().map_or(0.0, |w| w.value);
-    let allowed = known + policy::WORST_INTERFERENCE * made.pair.module;
+    let toothed = &analysed.toothed;
+    let poses = match &assembly.gears[..] {
+        [driver, follower] => {
+            let input = ContactInput {
+                driver: &driver.gear.outline,
+                follower: &follower.gear.outline,
+                ..toothed.in_mesh(toothed.finished.as_ref(), control)
+            };
+            poses_at(&input, &ContactOptions::default(), &angles)?
+        }
+        _ => Vec::new(),
+    };
+    let known = analysed.contact.summary.max_interference.map_or(0.0, |w| w.value);
+    let allowed = known + analysed.limits.overlap * toothed.sized.module;
     let bad = poses.iter().find(|p| p.lost || p.lost_reversed || p.interference > allowed);
-    match bad {
-        Some(pose) => made.faults.push(format!(
-            "cut to its segment the pair loses contact or overlaps at {:.1} degrees of driver turn; leave out --sector or give more teeth",
-            pose.driver_angle.to_degrees()
-        )),
-        None => made.steps.push(format!(
-            "the cut gears keep contact at all {} poses of the segment; the other figures are those of the whole gears",
-            poses.len()
-        )),
-    }
-    Ok(())
+    Ok(match bad {
+        Some(pose) => {
+            Diagnostic::fault(Code::SectorContact, stage).at_driver_angle(pose.driver_angle)
+        }
+        None => Diagnostic::note(Code::SectorKeepsContact, stage).with("poses", poses.len() as f64),
+    })
 }
 
 /// Driver angle at which a point of the gear, in its own frame, faces the mate, the nearest to `near`; and how far

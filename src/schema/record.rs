@@ -2,12 +2,13 @@
 
 use serde::Serialize;
 
-use super::Design;
-use super::fittings_record::{FittingsRecord, FixtureRecord};
+use super::fittings::{FittingsRecord, FixtureRecord};
 use crate::assembly::{Assembly, PlacedGear};
+use crate::diagnose::{Diagnostic, Severity, Verdict};
 use crate::gear::Side;
 use crate::geometry::Point;
 use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
+use crate::pipeline::Design;
 use crate::strength::Strength;
 
 /// The record of one design; field order is the order in the file. Lengths mm, angles radians.
@@ -114,7 +115,9 @@ struct Law {
 
 #[derive(Debug, Serialize)]
 struct Meshing {
-    verdict: &'static str,
+    verdict: Verdict,
+    diagnostics: Vec<Diagnostic>,
+    /// The sentences of the diagnostics, by severity.
     faults: Vec<String>,
     warnings: Vec<String>,
     steps: Vec<String>,
@@ -276,9 +279,10 @@ impl Record {
             }),
             meshing: Meshing {
                 verdict: design.verdict(),
-                faults: design.faults.clone(),
-                warnings: design.warnings.clone(),
-                steps: design.steps.clone(),
+                diagnostics: design.diagnostics.clone(),
+                faults: design.told(Severity::Fault),
+                warnings: design.told(Severity::Warning),
+                steps: design.told(Severity::Note),
                 transmission_error_median_deviation: exact.map(|e| e.median_deviation),
                 transmission_error_p99: exact.map(|e| e.p99_deviation),
                 transmission_error_peak_to_peak: exact.map(|e| e.peak_to_peak),
@@ -319,20 +323,6 @@ impl Record {
                 orientation: options.fit.fixed.orientation,
                 symmetric: options.fit.symmetric,
             },
-        }
-    }
-}
-
-impl Design {
-    /// One word for the outcome: `good`, `warnings` or `unsound`.
-    #[must_use]
-    pub fn verdict(&self) -> &'static str {
-        if !self.is_sound() {
-            "unsound"
-        } else if self.warnings.is_empty() {
-            "good"
-        } else {
-            "warnings"
         }
     }
 }
