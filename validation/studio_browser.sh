@@ -5,6 +5,8 @@ if [ ! -x "$centrode" ]; then
     echo "no program at $centrode; build it with: cargo build --release" >&2
     exit 2
 fi
+
+centrode=$(realpath "$centrode")
 chromium=
 for name in chromium chromium-browser google-chrome google-chrome-stable; do
     chromium=$(command -v "$name") && break

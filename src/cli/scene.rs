@@ -186,6 +186,30 @@ pub(super) fn text(words: &[OsString], folder: &Path) -> anyhow::Result<String> 
     Ok(write(name, &keys(known), &settings))
 }
 
+/// A scene in parts: its command, the values without a name in their order, and the options with their values.
+pub(super) type Parts = (String, Vec<String>, Vec<Setting>);
+
+/// The parts of the scene in `text`, its paths as they stand there.
+pub(super) fn parts(text: &str) -> anyhow::Result<Parts> {
+    let top = Cli::command();
+    let names: Vec<&str> = top
+        .get_subcommands()
+        .map(clap::Command::get_name)
+        .filter(|n| !NO_SCENE.contains(n))
+        .collect();
+    let command = command_of(text, names.iter().copied())?;
+    let Some(known) = top.find_subcommand(command) else { bail!("there is no command {command}") };
+    let (mut places, mut options) = (Vec::new(), Vec::new());
+    for setting in read(text, &keys(known))? {
+        match known.get_positionals().position(|p| name_of(p) == setting.key) {
+            Some(index) => places.extend(setting.values.into_iter().map(|v| (index, v))),
+            None => options.push(setting),
+        }
+    }
+    places.sort_by_key(|p| p.0);
+    Ok((command.to_owned(), places.into_iter().map(|p| p.1).collect(), options))
+}
+
 /// What was said on the command line itself, defaults left out, in the order of the help.
 pub(crate) fn given_settings(known: &clap::Command, given: &ArgMatches) -> Vec<Setting> {
     let told = |arg: &&Arg| {

@@ -26,9 +26,9 @@ pub(crate) struct StudioArgs {
     /// Print the address only; do not open a browser
     #[arg(long)]
     pub(crate) no_open: bool,
-    /// Folder that the page may write finished files to
-    #[arg(short, long, value_name = "FOLDER", default_value = "out")]
-    pub(crate) output: PathBuf,
+    /// Folder that the page may write finished files to [default: out, made when the first are written]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 pub(crate) fn run(args: &StudioArgs) -> anyhow::Result<Outcome> {
@@ -143,4 +143,17 @@ pub(crate) fn command_text(words: &[String]) -> String {
 pub(crate) fn scene_text(words: &[String]) -> anyhow::Result<String> {
     let words: Vec<OsString> = words.iter().map(OsString::from).collect();
     scene::text(&words, Path::new(""))
+}
+
+/// A scene's command, drawings or motion, and options with their values; a flag has the value `true`.
+pub(crate) type Opened = (String, Vec<String>, Vec<(String, String)>);
+
+/// Reads a scene. No file is opened.
+pub(crate) fn opened(text: &str) -> anyhow::Result<Opened> {
+    let (command, places, settings) = scene::parts(text)?;
+    let option = |s: centrode::scene::Setting| {
+        let value = if s.values.is_empty() { "true".to_owned() } else { s.values.join(",") };
+        (s.key, value)
+    };
+    Ok((command, places, settings.into_iter().map(option).collect()))
 }

@@ -80,6 +80,7 @@ fn carried_out(app: &App, order: &Order) -> Result<Response, String> {
     let (staging, files) = plan.files(&made, &given, &app.output).map_err(told)?;
     if order.place == Place::Folder {
         let published = staging.publish(&files).map_err(|e| e.to_string())?;
+        super::keep_token(&app.output, app.guard.token());
         let names: Vec<String> = published.iter().map(|p| name_of(p)).collect();
         let answer = json!({ "folder": app.output, "files": names });
         return Ok(Json(answer).into_response());

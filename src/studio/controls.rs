@@ -85,6 +85,7 @@ const NUMBERS: &[(&str, Look)] = &[
     ("nozzle", number("mm", 0.1, 1.2, 0.05)),
     ("curve-tolerance", number("mm", 0.0005, 0.05, 0.0005)),
     ("kerf", number("mm", 0.0, 1.0, 0.01)),
+    ("effort", number("", 1.0, 5.0, 1.0)),
     ("from", number("°", 0.0, 360.0, 1.0)),
     ("to", number("°", 0.0, 360.0, 1.0)),
 ];
@@ -139,6 +140,8 @@ const LEFT_OUT: &[&str] = &[
     "force",
     "animate",
     "no-refine",
+    "alternatives",
+    "choose",
 ];
 
 /// The controls of a command.

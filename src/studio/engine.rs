@@ -5,13 +5,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use centrode::control::Control;
-use centrode::fit::{self, Fit, FitError, FitOptions, Fixed, LimitError, Ratio};
+use centrode::fit::{self, Fit, FitError, FitOptions, Fitter, Fixed, LimitError, Ratio};
 use centrode::geometry::{self, Point};
 use centrode::input::{LoadOptions, Shape};
 use centrode::pipeline::{Design, DesignOptions, PipelineError, Request, Scale, ToothCount};
 use centrode::pitch::{Centrodes, Transmission};
 use centrode::teeth::{self, TeethOptions};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::drawings::{DrawingError, Drawings};
 use super::protocol::{DrawingRef, Remedy, Stage, State, Told};
@@ -123,7 +123,14 @@ pub(super) struct Engine {
     fitted: Option<Known>,
     teeth: Option<u32>,
     told: Option<Vec<(DrawingRef, LoadOptions)>>,
+    /// Keeps what it found of the last shapes.
+    fitter: Fitter,
+    /// What the other pairs were found for that the page shows.
+    offered: Option<Offered>,
 }
+
+/// What other pairs were found for: drawings, ratio, options.
+type Offered = (Vec<(DrawingRef, LoadOptions)>, Ratio, FitOptions);
 
 /// Pairs kept for whoever takes their files away.
 const FINISHED_KEPT: usize = 12;
@@ -159,6 +166,8 @@ struct Known {
 /// Where news goes; false when nobody wants them any more.
 pub(super) type Tell<'a> = &'a mut dyn FnMut(Told) -> bool;
 
+/// Pairs to choose from.
+const OFFERED: usize = 8;
 /// Shapes that a tab keeps read.
 const SHAPES_KEPT: usize = 8;
 
@@ -231,7 +240,37 @@ impl Engine {
         self.teeth = Some(made.teeth[0]);
         let data = wire::proven(&made);
         finished.keep(state, Arc::new(made));
-        say(Stage::Proven, data)
+        say(Stage::Proven, data)?;
+        self.offer(&plan, seen, &mut say)
+    }
+
+    /// Other pairs of the same drawings, unless the page has them.
+    fn offer(
+        &mut self,
+        plan: &Plan,
+        seen: [Option<&Shape>; 2],
+        say: &mut dyn FnMut(Stage, Value) -> Result<(), Stopped>,
+    ) -> Result<(), Stopped> {
+        let (Origin::Two, [Some(driver), Some(follower)]) = (&plan.origin, seen) else {
+            self.offered = None;
+            return say(Stage::Alternatives, json!({ "pairs": [] }));
+        };
+        let options = &plan.options;
+        let free = FitOptions { choose: None, ..options.fit.clone() };
+        let now = (self.told.clone().unwrap_or_default(), options.ratio, free);
+        if options.fit.symmetric || self.offered.as_ref() == Some(&now) {
+            return Ok(());
+        }
+        let fits = self.fitter.alternatives(
+            &driver.outline,
+            &follower.outline,
+            options.ratio,
+            &now.2,
+            OFFERED,
+            &options.control,
+        )?;
+        self.offered = Some(now);
+        say(Stage::Alternatives, wire::alternatives(&fits, [driver, follower]))
     }
 
     /// The finished pair of a state, made now unless it was made last.
@@ -316,7 +355,7 @@ impl Engine {
                 let all_fixed = options.fit.fixed.driver_axis.is_some()
                     && options.fit.fixed.follower_axis.is_some();
                 if !all_fixed {
-                    let coarse = FitOptions { refine: false, ..options.fit.clone() };
+                    let coarse = FitOptions { refine: false, choose: None, ..options.fit.clone() };
                     let coarse = match last {
                         // Where the axes are now is where they stay while something is dragged.
                         Some([driver, follower]) if !coarse.symmetric => FitOptions {
@@ -329,7 +368,7 @@ impl Engine {
                         },
                         _ => FitOptions { search: fit::Search::Coarse, ..coarse },
                     };
-                    if let Ok(fit) = fit::fit(
+                    if let Ok(fit) = self.fitter.fit(
                         &driver.outline,
                         &follower.outline,
                         options.ratio,
@@ -342,7 +381,7 @@ impl Engine {
                         }
                     }
                 }
-                let fit = fit::fit(
+                let fit = self.fitter.fit(
                     &driver.outline,
                     &follower.outline,
                     options.ratio,

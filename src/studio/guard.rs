@@ -28,6 +28,10 @@ impl Guard {
         Self { token, port }
     }
 
+    pub(super) fn token(&self) -> &str {
+        &self.token
+    }
+
     /// The address of the page.
     pub(super) fn address(&self) -> String {
         format!("http://127.0.0.1:{}/{}/", self.port, self.token)

@@ -38,6 +38,8 @@ const PORT: u16 = 4827;
 const PORTS: u16 = 20;
 /// Tabs at a time: each has a thread and keeps a pair.
 const TABS: usize = 24;
+/// Where files go unless the command line says.
+const FOLDER: &str = "out";
 /// Holds the token between two runs of the studio in one folder, so that a page that is open finds it again.
 const TOKEN_FILE: &str = ".centrode-studio";
 
@@ -58,7 +60,11 @@ struct App {
 
 /// Serves the page until it is interrupted.
 pub(crate) fn run(args: &StudioArgs) -> anyhow::Result<()> {
-    centrode::export::check_folder(&args.output)?;
+    let output = args.output.clone().unwrap_or_else(|| PathBuf::from(FOLDER));
+    centrode::export::check_folder(&output)?;
+    if args.output.is_some() {
+        centrode::export::prepare_folder(&output)?;
+    }
     let drawings = Drawings::default();
     let given = args.files.iter().map(|f| given(f, &drawings)).collect::<anyhow::Result<_>>()?;
     let runtime = tokio::runtime::Builder::new_multi_thread()
@@ -69,12 +75,12 @@ pub(crate) fn run(args: &StudioArgs) -> anyhow::Result<()> {
     runtime.block_on(async {
         let listener = listen(args.port).await?;
         let port = listener.local_addr()?.port();
-        let guard = Guard::new(token(&args.output)?, port);
+        let guard = Guard::new(token(&output)?, port);
         let app = Arc::new(App {
             guard,
             drawings,
             given,
-            output: args.output.clone(),
+            output: output.clone(),
             finished: Finished::default(),
             tabs: Arc::new(Semaphore::new(TABS)),
             exports: Semaphore::new(1),
@@ -131,17 +137,21 @@ fn token(output: &Path) -> anyhow::Result<String> {
         return Ok(text.trim().to_owned());
     }
     let token = guard::random_token()?;
-    // Without it a page only has to be opened anew.
+    keep_token(output, &token);
+    Ok(token)
+}
+
+/// Keeps the token in the output folder, if there is one yet. Without it a page has to be opened anew, and nothing else.
+fn keep_token(output: &Path, token: &str) {
     if output.is_dir() {
         let mut options = std::fs::OpenOptions::new();
         options.write(true).create(true).truncate(true);
         #[cfg(unix)]
         std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
         let _ = options
-            .open(&path)
+            .open(output.join(TOKEN_FILE))
             .and_then(|mut file| std::io::Write::write_all(&mut file, token.as_bytes()));
     }
-    Ok(token)
 }
 
 /// Opens the page in the browser of this desktop, if there is one.

@@ -126,6 +126,8 @@ pub(super) enum Stage {
     Analysed,
     /// Runs as rigid bodies; all that is to be said.
     Proven,
+    /// Other pairs that the same drawings make.
+    Alternatives,
 }
 
 /// To the page.

@@ -63,6 +63,7 @@ fn router(app: Arc<App>) -> Router {
         .route("/api/drawing", post(drawing).get(drawing_again))
         .route("/api/mirror", post(mirror))
         .route("/api/export", post(away::export))
+        .route("/api/open", post(open))
         .route("/api/texts", post(away::texts))
         .route("/api/socket", any(socket))
         .fallback(page)
@@ -213,6 +214,17 @@ async fn mirror(
                 .into_response()
         }
         Err(_) => StatusCode::UNPROCESSABLE_ENTITY.into_response(),
+    }
+}
+
+/// Reads a scene; answers with the state it describes.
+async fn open(text: String) -> Response {
+    match super::words::opened(&text) {
+        Ok(state) => Json(json!(state)).into_response(),
+        Err(error) => {
+            (StatusCode::UNPROCESSABLE_ENTITY, Json(json!({ "text": crate::cli::told(&error) })))
+                .into_response()
+        }
     }
 }
 

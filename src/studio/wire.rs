@@ -25,6 +25,8 @@ const SAMPLES: usize = 720;
 const FRAMES: usize = 720;
 /// Points of a plot of a run.
 const RUN_POINTS: usize = 900;
+/// Points of a curve in a small picture.
+const SMALL_POINTS: usize = 120;
 /// Decimals of lengths: a tenth of a micrometre.
 const FINE: f64 = 1e4;
 
@@ -131,6 +133,33 @@ pub(super) fn sized(centrodes: &Centrodes, fitted: &Fitted<'_>, coarse: bool) ->
         "steepest": centrodes.max_lean(),
         "objective": fitted.fit.map(|f| json!({"total": f.objective.total, "shape": f.objective.shape})),
     })
+}
+
+/// Other pairs to choose from, small.
+pub(super) fn alternatives(fits: &[Fit], shapes: [&Shape; 2]) -> Value {
+    let small = |points: &[Point]| {
+        let stride = points.len().div_ceil(SMALL_POINTS).max(1);
+        ring(&points.iter().step_by(stride).copied().collect::<Vec<_>>())
+    };
+    let one = |fit: &Fit| {
+        let t = &fit.transmission;
+        let centrodes = Centrodes { transmission: t.clone(), center_distance: 1.0 };
+        let pitch = [
+            centrodes.driver_curve(SMALL_POINTS),
+            centrodes.follower_curve(SMALL_POINTS * t.follower_fold() as usize),
+        ];
+        let gears = [&fit.driver, &fit.follower];
+        let ghosts = [0, 1].map(|i| small(&placed(shapes[i], gears[i], &pitch[i])));
+        json!({
+            "likeness": gears.map(|g| g.iou),
+            "torque": t.max_derivative(),
+            "cycle": t.cycle(),
+            "psi": (0..=SMALL_POINTS).map(|i| rounded(t.psi(t.cycle() * i as f64 / SMALL_POINTS as f64), 1e5)).collect::<Vec<_>>(),
+            "pitch": [ring(&pitch[0]), ring(&pitch[1])],
+            "ghosts": ghosts,
+        })
+    };
+    json!({ "pairs": fits.iter().map(one).collect::<Vec<_>>() })
 }
 
 /// Outlines before their analysis.

@@ -38,9 +38,58 @@ pub(super) fn typed(state: &State, output: &str) -> Vec<String> {
     head.iter().chain(places).chain(options).cloned().collect()
 }
 
+/// The state that a scene describes.
+pub(super) fn opened(text: &str) -> anyhow::Result<State> {
+    let (command, places, options) = crate::cli::studio::opened(text)?;
+    let mut places = places.into_iter();
+    let mut state = State { options: options.into_iter().collect(), ..State::default() };
+    state.options.remove("output");
+    let drawing = |name: String| DrawingRef { name, id: None };
+    match command.as_str() {
+        "design" => {
+            state.driver = places.next().map(drawing);
+            state.follower = places.next().map(drawing);
+        }
+        "mate" => {
+            state.way = Way::Mate;
+            state.driver = places.next().map(drawing);
+        }
+        "motion" => {
+            state.way = Way::Motion;
+            state.law = places.next();
+        }
+        _ => anyhow::bail!(
+            "this scene is of `centrode {command}`; open one of design, mate or motion"
+        ),
+    }
+    Ok(state)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_saved_scene_opens_as_the_state_it_was_saved_from() {
+        let mut state = State { way: Way::Design, ..State::default() };
+        let named = |name: &str| Some(DrawingRef { name: name.to_owned(), id: None });
+        (state.driver, state.follower) = (named("heart"), named("dove"));
+        for (key, value) in
+            [("teeth", "48"), ("balance", "0.4"), ("strict", "true"), ("driver-axis", "10,20")]
+        {
+            state.options.insert(key.to_owned(), value.to_owned());
+        }
+        let text = crate::cli::studio::scene_text(&of(&state, "out")).unwrap();
+        assert_eq!(opened(&text).unwrap(), state);
+        let motion = State {
+            way: Way::Motion,
+            law: Some("1 + 0.3*cos(2*phi)".to_owned()),
+            ..State::default()
+        };
+        let text = crate::cli::studio::scene_text(&of(&motion, "out")).unwrap();
+        assert_eq!(opened(&text).unwrap(), motion);
+        assert!(opened("command = \"train\"").is_err() && opened("nothing").is_err());
+    }
 
     #[test]
     fn words_carry_values_that_look_like_options() {

@@ -1,6 +1,7 @@
 // Puts the page together: the state goes to the server, what it tells goes to the views.
 
-import { copyCommand, copyLink, saveScene, takeAway } from "./away.js";
+import { Alternatives } from "./alternatives.js";
+import { copyCommand, copyLink, openScene, saveScene, takeAway } from "./away.js";
 import { Controls } from "./controls.js";
 import { el, fill, menu, svg, toast } from "./dom.js";
 import { Drawings } from "./drawings.js";
@@ -23,7 +24,9 @@ const FIRST = { ...EMPTY, driver: { name: "heart" }, follower: { name: "dove" } 
 const FIRST_LAW = "1 + 0.3*cos(2*phi)";
 
 const start = async () => {
-  const begin = await (await fetch("api/begin")).json();
+  const answer = await fetch("api/begin");
+  if (!answer.ok) { toast(T.startedAnew, "bad"); return; }
+  const begin = await answer.json();
   setLargest(begin.largest_drawing);
   const store = new Store();
   const [driver, follower] = begin.given;
@@ -38,6 +41,7 @@ const start = async () => {
   const figures = new Figures();
   const plots = new Plots(transport);
   const law = new Law(store);
+  const alternatives = new Alternatives(store, transport);
   const tabs = new Tabs(stage, transport, store);
   const findings = new Findings({
     onGo: ({ angle }) => { tabs.open("pair"); transport.play(false); transport.goTo(angle); stage.toMesh(); },
@@ -52,6 +56,7 @@ const start = async () => {
       delete s.options[`${side}-axis`];
       delete s.options.axis;
       delete s.options.orientation;
+      delete s.options.choose;
     }
     if (s.way === "design" && !s.follower) s.follower = s.driver;
     if (s.way === "design" && !s.driver) s.driver = s.follower;
@@ -65,7 +70,7 @@ const start = async () => {
     root.dataset.settled = model.generation === link.generation ? "yes" : "no";
     stage.show(model);
     tabs.show(model);
-    for (const view of [verdict, figures, findings, plots]) view.show(model);
+    for (const view of [alternatives, verdict, figures, findings, plots]) view.show(model);
     drawings.show(store.state, model);
     law.show(store.state, model);
     controls.show(store.state, model);
@@ -84,12 +89,17 @@ const start = async () => {
       return;
     }
     const { data, stage: reached, generation } = told;
+    if (reached === "alternatives") {
+      model = { ...model, alternatives: data.pairs };
+      alternatives.show(model);
+      return;
+    }
     const fresh = generation !== model.generation;
     const next = fresh ? { ...model, refused: null, generation, findings: model.findings, live } : { ...model };
     next.stage = reached;
     next.generation = generation;
     if (fresh) { next.verdict = null; next.forces = null; }
-    if (reached === "read") next.reads = data.drawings;
+    if (reached === "read") Object.assign(next, { reads: data.drawings, alternatives: [] });
     if (reached === "sized") next.sized = data;
     // A coarse picture has not its teeth yet: those of the last pair would not fit it.
     if (reached === "sized" && fresh) { next.contacts = []; next.runs = null; next.analysed = null; next.figures = null; }
@@ -123,10 +133,12 @@ const start = async () => {
   const showTheme = () => fill(theme, icon(isDark() ? "sun" : "moon"));
   onTheme(showTheme);
   showTheme();
+  const chooser = el("input", { type: "file", accept: ".toml", hidden: true, onchange: () => { if (chooser.files[0]) openScene(store, chooser.files[0]); chooser.value = ""; } });
   const share = el("button", { type: "button", class: "plain", "aria-haspopup": "menu", onclick: () => menu(share, [
     { icon: icon("link"), text: T.copyLink, run: () => copyLink(store) },
     { icon: icon("code"), text: T.copyCommand, run: () => copyCommand(store) },
     { icon: icon("save"), text: T.saveScene, run: () => saveScene(store) },
+    { icon: icon("open"), text: T.openState, run: () => chooser.click() },
   ]) }, icon("share"), el("span", { class: "hide-narrow" }, T.share));
   const away = el("button", { type: "button", class: "primary", onclick: () => takeAway(store, begin.formats, begin.folder, model) }, icon("save"), T.away);
   const name = el("span", { class: "pair-name" });
@@ -134,9 +146,10 @@ const start = async () => {
     el("div", { class: "brand" }, logo(), el("span", {}, T.product)), name, el("span", { class: "stretch" }), lost, verdict.node, el("span", { class: "stretch" }), undo, redo, theme, share, away);
   fill(document.getElementById("left"), drawings.node, law.node, controls.node);
   stage.node.append(stage.tools());
-  fill(document.getElementById("middle"), stage.node, transport.node);
+  fill(document.getElementById("middle"), stage.node, alternatives.node, transport.node);
   fill(document.getElementById("right"), findings.node, figures.node, plots.node);
-  dropPlaces(stage.node, place);
+  dropPlaces(stage.node, place, (scene) => openScene(store, scene));
+  document.body.append(chooser);
   listenToKeys({ store, transport, stage });
 
   const onState = (state, isLive) => {
@@ -149,6 +162,7 @@ const start = async () => {
     document.title = `${name.textContent} – ${T.product}`;
     drawings.show(state, model);
     law.show(state, model);
+    alternatives.show(model);
     controls.show(state, model);
     link.want(state, isLive);
   };

@@ -3,6 +3,7 @@
 import { dialog, el, fill, toast } from "./dom.js";
 import { icon } from "./icons.js";
 import { kept } from "./shelf.js";
+import { cleaned } from "./store.js";
 import { T } from "./texts.js";
 
 const post = (path, body) => fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
@@ -45,6 +46,14 @@ export const copyCommand = async (store) => {
 };
 export const saveScene = async (store) => {
   try { saveBlob(new Blob([(await textsOf(store.state)).scene], { type: "application/toml" }), "pair.toml"); } catch (error) { toast(error.message, "bad"); }
+};
+
+// Takes the place of the state what a scene says.
+export const openScene = async (store, file) => {
+  const answer = await fetch("api/open", { method: "POST", headers: { "content-type": "text/plain" }, body: await file.text() });
+  const said = await answer.json().catch(() => ({ text: T.noScene }));
+  if (!answer.ok) { toast(said.text, "bad"); return; }
+  store.edit(() => cleaned(said));
 };
 
 export const fetchFile = async (state, format, file) => {

@@ -3,6 +3,7 @@
 import { el, fill, svg, toast } from "./dom.js";
 import { icon } from "./icons.js";
 import { clamp } from "./numbers.js";
+import { Photo, Threshold } from "./photo.js";
 import { adopt } from "./shelf.js";
 import { T } from "./texts.js";
 
@@ -21,7 +22,8 @@ class Card {
     const index = SIDES.indexOf(side);
     this.index = index;
     this.shape = svg("path", { class: "fill" });
-    this.turned = svg("g", {}, this.shape);
+    this.photo = new Photo();
+    this.turned = svg("g", {}, this.photo.node, this.shape);
     this.axis = svg("g", { class: "axis", tabindex: "0", role: "button", "aria-label": T.axisOf(side) },
       svg("circle", { class: "area", r: 14 }), svg("circle", { r: 5.5 }), svg("path", { d: "M-9 0h18M0 -9v18" }));
     this.knob = svg("g", { class: "knob", tabindex: "0", role: "slider", "aria-label": T.knob, "aria-valuemin": -180, "aria-valuemax": 180 },
@@ -105,6 +107,7 @@ class Card {
   }
 
   show(drawing, sized, options) {
+    this.photo.show(drawing).then(() => this.shape.classList.toggle("over-photo", this.photo.node.hasAttribute("href")));
     this.name.textContent = drawing ? drawing.name.replace(/\.\w+$/, "") : T.empty;
     if (!this.bounds) return;
     const key = this.owner.way === "mate" ? "axis" : `${this.side}-axis`;
@@ -144,12 +147,14 @@ export class Drawings {
     this.ways = el("div", { class: "ways", role: "tablist", "aria-label": T.waysLabel });
     this.swapButton = el("button", { type: "button", class: "swap", title: T.swap, "aria-label": T.swap, onclick: () => this.swap() }, icon("swap"));
     this.row = el("div", { class: "cards" }, this.cards[0].node, this.swapButton, this.cards[1].node);
+    this.threshold = new Threshold(store);
     this.freeButton = el("button", { type: "button", class: "link", onclick: () => this.free() }, T.free);
-    this.node = el("section", { class: "panel", "aria-label": T.drawings }, this.ways, this.row, el("div", { class: "free" }, this.freeButton));
+    this.node = el("section", { class: "panel", "aria-label": T.drawings }, this.ways, this.row, this.threshold.node, el("div", { class: "free" }, this.freeButton));
   }
 
   show(state, model) {
     this.way = state.way;
+    this.threshold.show(state);
     fill(this.ways, Object.entries(T.ways).map(([way, text]) => el("button", {
       type: "button", role: "tab", "aria-selected": String(state.way === way), onclick: () => this.store.edit((s) => { s.way = way; s.options = kept(s.options, way); }),
     }, text)));
@@ -174,6 +179,7 @@ export class Drawings {
     this.store.edit((s) => {
       s.options[`${side}-axis`] = text(at);
       delete s.options.symmetric;
+      delete s.options.choose;
       if (s.options[`${other}-axis`] === undefined && otherAt) s.options[`${other}-axis`] = text(otherAt);
     }, { live });
   }
@@ -182,6 +188,7 @@ export class Drawings {
     this.store.edit((s) => {
       s.options.orientation = (((angle + 540) % 360) - 180).toFixed(1);
       delete s.options.symmetric;
+      delete s.options.choose;
     }, { live });
   }
 
@@ -192,6 +199,7 @@ export class Drawings {
   swap() {
     this.store.edit((s) => {
       [s.driver, s.follower] = [s.follower, s.driver];
+      delete s.options.choose;
       const { "driver-axis": a, "follower-axis": b, ...rest } = s.options;
       s.options = { ...rest, ...(b ? { "driver-axis": b } : {}), ...(a ? { "follower-axis": a } : {}) };
       if (rest.orientation !== undefined) s.options.orientation = String(-Number(rest.orientation));
@@ -216,7 +224,7 @@ export class Drawings {
 }
 
 // Options that mean nothing for another way are dropped.
-const ONLY = { design: ["balance", "driver-axis", "follower-axis", "orientation", "symmetric", "refine", "search", "star-weight"], mate: ["axis"], motion: ["psi", "centrode", "preset", "normalise", "from", "to", "sector"] };
+const ONLY = { design: ["balance", "driver-axis", "follower-axis", "orientation", "symmetric", "refine", "effort", "choose", "search", "star-weight"], mate: ["axis"], motion: ["psi", "centrode", "preset", "normalise", "from", "to", "sector"] };
 const kept = (options, way) => {
   const away = Object.entries(ONLY).filter(([w]) => w !== way).flatMap(([, keys]) => keys);
   if (way === "motion") away.push("smoothing", "threshold", "torque-weight", "max-torque", "max-lean");

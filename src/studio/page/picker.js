@@ -64,7 +64,7 @@ export const pick = (side, shapes, current, onPicked) => {
 };
 
 // Two places to drop files on, over the stage.
-export const dropPlaces = (stage, onDropped) => {
+export const dropPlaces = (stage, onDropped, onScene) => {
   const halves = ["driver", "follower"].map((side) => el("div", {}, T.dropOn(T[side].toLowerCase())));
   const veil = el("div", { class: "drop", hidden: true }, halves);
   stage.append(veil);
@@ -87,6 +87,8 @@ export const dropPlaces = (stage, onDropped) => {
     if (!files(event)) return;
     event.preventDefault();
     const given = Array.from(event.dataTransfer.files);
+    const scene = given.find((file) => /\.toml$/i.test(file.name));
+    if (scene) { onScene(scene); return; }
     const first = sideOf(event);
     const drawings = [];
     for (const file of given.slice(0, 2)) drawings.push(await take(file));
