@@ -4,11 +4,13 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use centrode::control::Control;
+use centrode::control::{Control, StageName};
 use centrode::fit::{self, Fit, FitError, FitOptions, Fitter, Fixed, LimitError, Ratio};
 use centrode::geometry::{self, Point};
 use centrode::input::{LoadOptions, Shape};
-use centrode::pipeline::{Design, DesignOptions, PipelineError, Request, Scale, ToothCount};
+use centrode::pipeline::{
+    Design, DesignOptions, PipelineError, Request, Scale, Session, ToothCount,
+};
 use centrode::pitch::{Centrodes, Transmission};
 use centrode::teeth::{self, TeethOptions};
 use serde_json::{Value, json};
@@ -125,6 +127,8 @@ pub(super) struct Engine {
     told: Option<Vec<(DrawingRef, LoadOptions)>>,
     /// Keeps what it found of the last shapes.
     fitter: Fitter,
+    /// Keeps the stages of the last requests.
+    session: Session,
     /// What the other pairs were found for that the page shows.
     offered: Option<Offered>,
 }
@@ -222,26 +226,38 @@ impl Engine {
             say(Stage::Read, wire::read(seen))?;
             self.told = Some(now);
         }
-        let sized = self.sized(&plan, &wanted, seen, (live, control), &mut say)?;
-        let count = self.count(&plan.options, &sized);
-        if let Some((pair, teeth)) = teeth_of(&sized, &plan.options, count, control) {
-            say(Stage::Toothed, wire::toothed(&pair, teeth))?;
-        }
+        let request = requested(&plan, &shapes)?;
+        let sized = self.sized((&plan, &request), &wanted, seen, (live, control), &mut say)?;
         if live {
+            let count = self.count(&plan.options, &sized);
+            if let Some((pair, teeth)) = teeth_of(&sized, &plan.options, count, control) {
+                say(Stage::Toothed, wire::toothed(&pair, teeth))?;
+            }
             return Ok(());
         }
-        let quick = DesignOptions { runs: Vec::new(), ..plan.options.clone() };
+        let first = self.session.run(&request, StageName::Toothed, control)?;
+        if let (Some(sized), Some(toothed)) = (&first.sized, &first.toothed) {
+            let teeth = [sized.teeth.driver, sized.teeth.follower];
+            say(Stage::Toothed, wire::toothed(&toothed.pair, teeth))?;
+        }
+        // Without runs first: all but the runs is kept for the second time.
         if !plan.options.runs.is_empty() {
-            let made = made(&plan.origin, &shapes, &quick, control)?;
-            self.teeth = Some(made.teeth[0]);
+            let quick = DesignOptions { runs: Vec::new(), ..plan.options.clone() };
+            let made = self.design(&request.clone().with(quick), control)?;
             say(Stage::Analysed, wire::analysed(&made))?;
         }
-        let made = made(&plan.origin, &shapes, &plan.options, control)?;
+        let made = self.design(&request, control)?;
         self.teeth = Some(made.teeth[0]);
         let data = wire::proven(&made);
         finished.keep(state, Arc::new(made));
         say(Stage::Proven, data)?;
-        self.offer(&plan, seen, &mut say)
+        self.offer(&plan, seen, control, &mut say)
+    }
+
+    /// The whole pair, from what the session has.
+    fn design(&mut self, request: &Request, control: &Control) -> Result<Design, Stopped> {
+        let stages = self.session.run(request, StageName::Outfitted, control)?;
+        Design::of(&stages).ok_or(Stopped::Newer)
     }
 
     /// Other pairs of the same drawings, unless the page has them.
@@ -249,6 +265,7 @@ impl Engine {
         &mut self,
         plan: &Plan,
         seen: [Option<&Shape>; 2],
+        control: &Control,
         say: &mut dyn FnMut(Stage, Value) -> Result<(), Stopped>,
     ) -> Result<(), Stopped> {
         let (Origin::Two, [Some(driver), Some(follower)]) = (&plan.origin, seen) else {
@@ -267,7 +284,7 @@ impl Engine {
             options.ratio,
             &now.2,
             OFFERED,
-            &options.control,
+            control,
         )?;
         self.offered = Some(now);
         say(Stage::Alternatives, wire::alternatives(&fits, [driver, follower]))
@@ -285,7 +302,7 @@ impl Engine {
         }
         let wanted = wanted(state, &plan.origin)?;
         let shapes = self.shapes(drawings, &wanted, &plan.load)?;
-        Ok(Arc::new(made(&plan.origin, &shapes, &plan.options, Control::unwatched())?))
+        Ok(Arc::new(requested(plan, &shapes)?.design(Control::unwatched())?))
     }
 
     fn shapes(
@@ -316,7 +333,7 @@ impl Engine {
     /// Pitch curves: at once from what is known, then from the full search.
     fn sized(
         &mut self,
-        plan: &Plan,
+        (plan, request): (&Plan, &Request),
         wanted: &[DrawingRef],
         seen: [Option<&Shape>; 2],
         (live, control): (bool, &Control),
@@ -381,13 +398,15 @@ impl Engine {
                         }
                     }
                 }
-                let fit = self.fitter.fit(
-                    &driver.outline,
-                    &follower.outline,
-                    options.ratio,
-                    &options.fit,
-                    control,
-                )?;
+                if live {
+                    let held = FitOptions { refine: false, choose: None, ..options.fit.clone() };
+                    let (ratio, fitter) = (options.ratio, &mut self.fitter);
+                    let fit =
+                        fitter.fit(&driver.outline, &follower.outline, ratio, &held, control)?;
+                    return tell(&fit, true);
+                }
+                let stages = self.session.run(request, StageName::Wanted, control)?;
+                let fit = stages.wanted.fit.clone().ok_or_else(nothing_given)?;
                 let centrodes = tell(&fit, false)?;
                 self.fitted = Some(Known {
                     drawings,
@@ -444,13 +463,9 @@ fn wanted(state: &State, origin: &Origin) -> Result<Vec<DrawingRef>, Stopped> {
     if wanted.len() == needed { Ok(wanted) } else { Err(nothing_given()) }
 }
 
-fn made(
-    origin: &Origin,
-    shapes: &[Arc<Shape>],
-    options: &DesignOptions,
-    control: &Control,
-) -> Result<Design, Stopped> {
-    let request = match (origin, shapes) {
+/// All that a plan asks for of its drawings.
+fn requested(plan: &Plan, shapes: &[Arc<Shape>]) -> Result<Request, Stopped> {
+    let request = match (&plan.origin, shapes) {
         (Origin::Two, [driver, follower]) => {
             Request::two_shapes(Arc::clone(driver), Arc::clone(follower))
         }
@@ -460,7 +475,7 @@ fn made(
         }
         _ => return Err(nothing_given()),
     };
-    Ok(request.with(options.clone()).design(control)?)
+    Ok(request.with(plan.options.clone()))
 }
 
 fn scaled(transmission: Transmission, scale: Scale) -> Centrodes {
