@@ -14,7 +14,8 @@ use centrode::export::{
 };
 use centrode::fit::{Ratio, fit};
 use centrode::gallery::{
-    Figures, Job, Row, Thumbnail, all_pairs, gallery_html, sorted, to_csv, to_json, told_apart,
+    Figures, Job, Row, TABLES, Thumbnail, all_pairs, gallery_html, sorted, to_csv, to_json,
+    told_apart,
 };
 use centrode::geometry::{Point, intersection_over_union};
 use centrode::input::{LoadOptions, Shape};
@@ -37,9 +38,6 @@ use super::{Outcome, report};
 
 /// The record of a pair for the gallery; a folder that has one is complete.
 const ROW: &str = "row.json";
-
-/// The tables and the page of all pairs.
-pub(super) const TABLES: [&str; 3] = ["gallery.csv", "gallery.json", "index.html"];
 
 pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outcome> {
     if let Some(GalleryStep::Merge(merge)) = &args.step {

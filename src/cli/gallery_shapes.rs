@@ -8,7 +8,7 @@ use centrode::input::{LoadOptions, Shape, load};
 use centrode::outline::library;
 use rayon::prelude::*;
 
-use super::gallery::TABLES;
+use centrode::gallery::TABLES;
 
 /// Endings of files that are taken for drawings in a folder.
 const DRAWINGS: [&str; 10] =

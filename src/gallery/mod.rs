@@ -12,6 +12,9 @@ pub use thumbnail::Thumbnail;
 
 use crate::fit::Ratio;
 
+/// Names of the files that show all pairs: the tables and the page.
+pub const TABLES: [&str; 3] = ["gallery.csv", "gallery.json", "index.html"];
+
 /// Part `part` of `of`, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {

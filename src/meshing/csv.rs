@@ -1,6 +1,6 @@
 //! The record of a run as a table.
 
-use super::dynamics::Dynamics;
+use super::run::Dynamics;
 use std::io::{self, Write};
 
 /// Writes one line per step after a heading; angles in radians, torque in N mm, work in N mm

@@ -6,7 +6,8 @@
 //! torque of the driver turns the follower, however large: the line of the force passes the follower's axis on the
 //! wrong side. Bearings are taken to be free of friction.
 
-use super::contact::{Contact, ContactAnalysis, ContactPose};
+use super::contact::ContactAnalysis;
+use super::pose::{Contact, ContactPose};
 use super::summary::WorstPlace;
 use crate::gear::Side;
 use crate::geometry::{Point, Vector, quarter_turn};

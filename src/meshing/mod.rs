@@ -10,8 +10,10 @@ mod index;
 mod locking;
 mod partition;
 mod play;
+mod pose;
 mod profile;
 mod recorder;
+mod run;
 #[cfg(test)]
 mod spur;
 mod summary;
@@ -21,18 +23,17 @@ mod train;
 mod verdict;
 mod world;
 
-pub use contact::{
-    Contact, ContactAnalysis, ContactError, ContactInput, ContactOptions, ContactPose, analyse,
-    poses_at,
-};
+pub use contact::{ContactAnalysis, ContactError, ContactInput, ContactOptions, analyse, poses_at};
 pub use csv::write_csv;
-pub use dynamics::{
-    Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, DynamicsSummary,
-    Step, Stop, simulate,
-};
+pub use dynamics::simulate;
 pub use gap::{Gap, GapFinder};
 pub use locking::{Foretold, foretell};
 pub use partition::{PartitionError, convex_partition};
+pub use pose::{Contact, ContactPose};
+pub use run::{
+    Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, DynamicsSummary,
+    Step, Stop,
+};
 pub use summary::{ContactSummary, Deviation, LostArc, WorstPlace};
 pub use touches::Touches;
 pub use train::{

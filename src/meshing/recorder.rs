@@ -2,7 +2,7 @@
 //! figures to judge by.
 
 use super::contact::{ContactInput, turns_behind};
-use super::dynamics::{
+use super::run::{
     Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, DynamicsSummary, Step, Stop,
 };
 use super::summary::WorstPlace;

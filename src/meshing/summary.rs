@@ -1,6 +1,6 @@
 //! What a whole cycle of contact poses amounts to.
 
-use super::contact::ContactPose;
+use super::pose::ContactPose;
 
 /// How far a quantity strays over a cycle. Poses with lost contact are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,10 +1,9 @@
 //! The one judge: findings from a contact analysis and from runs, by the same limits wherever a pair comes from.
 
 use super::contact::{ContactAnalysis, ContactInput};
-use super::dynamics::{
-    Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, Stop, simulate,
-};
+use super::dynamics::simulate;
 use super::locking::{Foretold, foretell};
+use super::run::{Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, Stop};
 use crate::control::StageName;
 use crate::diagnose::{Code, Diagnostic, Limits, Severity, Verdict, once_each};
 use crate::gear::Side;

@@ -14,7 +14,7 @@ pub use run::{quiet_speed, simulate_train, simulate_train_all};
 pub use verdict::judge_train;
 
 use super::contact::ContactError;
-use super::dynamics::{DynamicsError, DynamicsOptions, Stop};
+use super::run::{DynamicsError, DynamicsOptions, Stop};
 use crate::assembly::{Assembly, PlacedGear};
 use crate::gear::{MotionError, SampledMotion};
 use crate::geometry;

@@ -5,7 +5,8 @@ use crate::assembly::{Assembly, PlacedGear};
 use crate::control::Control;
 use crate::gear::{Motion, SampledMotion};
 use crate::geometry::{self, Point};
-use crate::meshing::contact::{ContactInput, ContactOptions, ContactPose, poses_at};
+use crate::meshing::contact::{ContactInput, ContactOptions, poses_at};
+use crate::meshing::pose::ContactPose;
 use crate::policy;
 
 /// Measures the free play of every mesh at `poses` poses of the train's cycle.

@@ -5,7 +5,7 @@ use crate::control::Control;
 use crate::diagnose::Limits;
 use crate::gear::MotionError;
 use crate::meshing::contact::{ContactInput, ContactOptions, analyse};
-use crate::meshing::dynamics::{DynamicsError, DynamicsInput, DynamicsOptions};
+use crate::meshing::run::{DynamicsError, DynamicsInput, DynamicsOptions};
 use crate::meshing::verdict::{MeshingReport, prove, proving_runs};
 use crate::policy;
 

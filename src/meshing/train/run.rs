@@ -5,8 +5,9 @@ use super::{MeshFigures, Motions, TrainRun, TrainRunError, TrainStep, leaves, mo
 use crate::assembly::{Assembly, PlacedGear};
 use crate::control::{Control, StageName};
 use crate::gear::Side;
-use crate::meshing::dynamics::{Drive, DynamicsError, DynamicsOptions, Stop, inertia};
+use crate::meshing::dynamics::inertia;
 use crate::meshing::recorder::averaged;
+use crate::meshing::run::{Drive, DynamicsError, DynamicsOptions, Stop};
 use crate::meshing::world::{SUBSTEPS, World, WorldContact, WorldGear, WorldInput};
 use crate::policy;
 use rayon::prelude::*;

@@ -3,7 +3,7 @@
 use super::run::rattle;
 use super::{TrainPlay, TrainRun, module_of};
 use crate::assembly::Assembly;
-use crate::meshing::dynamics::{Drive, Stop};
+use crate::meshing::run::{Drive, Stop};
 use crate::policy;
 use std::f64::consts::TAU;
 
