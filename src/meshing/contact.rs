@@ -12,7 +12,7 @@ use super::pose::{Contact, ContactPose};
 use super::summary::ContactSummary;
 use crate::control::{Cancelled, Control, Meter, StageName};
 use crate::gear::{Gearing, Motion, Side};
-use crate::geometry::{Point, Vector, cross, perimeter};
+use crate::geometry::{Point, cross, perimeter};
 use crate::policy;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_4, PI};

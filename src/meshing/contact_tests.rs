@@ -1,6 +1,7 @@
 use super::*;
 use crate::control::Control;
 use crate::gear::EvenMotion;
+use crate::geometry::Vector;
 use crate::meshing::spur::Spur;
 use std::f64::consts::TAU;
 

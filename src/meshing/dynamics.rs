@@ -5,15 +5,12 @@
 //! psi. Driven the other way the pair is mirrored, run, and its angles are given back as negative
 //! numbers.
 
-use super::contact::{ContactError, ContactInput, ContactOptions, analyse, poses_at};
-use super::locking::{Foretold, foretell};
-use super::partition::PartitionError;
+use super::contact::{ContactInput, ContactOptions, analyse, poses_at};
+use super::locking::foretell;
 use super::recorder::Recorder;
 use super::run::{Direction, Drive, Dynamics, DynamicsError, DynamicsInput, DynamicsOptions, Stop};
-use super::summary::WorstPlace;
-use super::touches::Touches;
 use super::world::{SUBSTEPS, World, WorldGear, WorldInput};
-use crate::control::{Cancelled, StageName};
+use crate::control::StageName;
 use crate::gear::{Mirrored, Motion, Side};
 use crate::geometry::{Point, Vector, cross};
 use crate::policy;
