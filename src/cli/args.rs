@@ -302,9 +302,12 @@ pub(crate) struct MotionArgs {
     /// Radius of the driver's pitch curve by direction phi, in any unit: a formula or a table
     #[arg(long, value_name = "RADIUS")]
     pub(crate) centrode: Option<String>,
-    /// constant, ellipse:E (about its focus), eccentric:E, dwell:LEAST, or quick-return:TIMES
+    /// constant, ellipse:E (about its focus), eccentric:E, oval:LEAST..MOST, dwell:LEAST, quick-return:TIMES or FORWARD/RETURN; --help-presets explains them
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<Preset>,
+    /// Explain the presets
+    #[arg(long, exclusive = true)]
+    pub(crate) help_presets: bool,
     /// Turns of the driver for one turn of the follower, or of both, such as 2, 1/3 or 3:2
     #[arg(short = 'k', long, default_value = "1", value_name = "M:N", value_parser = units::turns, allow_hyphen_values = true)]
     pub(crate) ratio: Ratio,
@@ -327,7 +330,7 @@ pub(crate) struct MotionArgs {
 /// Options of `centrode mate`.
 #[derive(Debug, Args)]
 pub(crate) struct MateArgs {
-    /// Shape of the driver: an SVG, a silhouette image, a point file, or a built-in name
+    /// Shape of the driver: an SVG, a silhouette image, a point file, a built-in name, or a letter such as text:A
     #[arg(value_name = "SHAPE")]
     pub(crate) shape: String,
     /// Turns of the driver for one turn of its mate, or of both, such as 2, 1/3 or 3:2
@@ -378,7 +381,7 @@ pub(crate) struct PairArgs {
 /// Options of `centrode design`.
 #[derive(Debug, Args)]
 pub(crate) struct DesignArgs {
-    /// Shape of the driver: an SVG, a silhouette image, a point file, or a built-in name
+    /// Shape of the driver: an SVG, a silhouette image, a point file, a built-in name, or a letter such as text:A
     #[arg(value_name = "DRIVER", value_hint = ValueHint::FilePath)]
     pub(crate) driver: String,
     /// Shape of the follower, likewise

@@ -13,6 +13,7 @@ mod making;
 mod mate;
 mod motion;
 mod outfit;
+mod presets;
 mod progress;
 mod proof;
 mod report;
@@ -63,6 +64,10 @@ impl Outcome {
 /// Returns 0 when all is well, 1 for a result that was made but is not sound, 2 for bad input.
 #[must_use]
 pub fn main() -> ExitCode {
+    if presets::asked(std::env::args_os()) {
+        presets::print();
+        return ExitCode::SUCCESS;
+    }
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return refused(&error),

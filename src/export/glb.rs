@@ -23,6 +23,8 @@ const DARK_BLUE: [f32; 4] = [0.03, 0.09, 0.29, 1.0];
 /// That of base plates.
 const GREY: [f32; 4] = [0.42, 0.42, 0.4, 1.0];
 const ROUGHNESS: f32 = 0.55;
+/// Sixths of a second are whole numbers of frames at 24 and at 30 a second.
+const WHOLE_FRAMES: f64 = 6.0;
 
 /// `pair.glb`: a named node per gear, in metres, y up as glTF wants it, turning through one whole
 /// cycle; fixtures stand still as nodes of their own names. The extras of scene and asset hold tool, units, centre
@@ -230,6 +232,10 @@ impl Builder {
         if keys.len() < 2 || nodes.is_empty() {
             return;
         }
+        // Programs count in frames: a clip that ends between two of them stutters where it begins again.
+        let cycle = assembly.driver_angle.last().map_or(0.0, |angle| angle * seconds);
+        let whole = ((cycle * WHOLE_FRAMES).round().max(1.0)) / WHOLE_FRAMES;
+        let seconds = if cycle > 0.0 { seconds * whole / cycle } else { seconds };
         let times: Vec<[f32; 1]> =
             keys.iter().map(|&i| [(assembly.driver_angle[i] * seconds) as f32]).collect();
         let input = self.floats(&times, Type::Scalar, None, true);
@@ -420,6 +426,39 @@ mod tests {
                 assert!(off.to_degrees().abs() < 0.0105, "{} at {now}", off.to_degrees());
             }
         }
+    }
+
+    #[test]
+    fn a_clip_is_whole_frames_long_at_24_and_at_30() {
+        let (mut assembly, meshes) = wavy_pair();
+        // A part of a turn, as of sectors.
+        assembly.driver_angle.iter_mut().for_each(|a| *a *= 0.437);
+        let parts = Parts { assembly: &assembly, meshes: &meshes };
+        let (document, buffers, _) =
+            gltf::import_slice(Glb::default().bytes(parts).unwrap()).unwrap();
+        let sampler = document.animations().next().unwrap().channels().next().unwrap().sampler();
+        let last = rows(&sampler.input(), &buffers).last().unwrap()[0];
+        for rate in [24.0, 30.0] {
+            let frames = last * rate;
+            assert!((frames - frames.round()).abs() < 1e-4 && frames > 60.0, "{frames}");
+        }
+    }
+
+    #[test]
+    fn a_knob_hangs_on_its_gear() {
+        let (mut assembly, mut meshes) = wavy_pair();
+        let mut knob = base();
+        knob.name = "knob".to_owned();
+        knob.stance = Stance::flat(6.0).turning_with(1);
+        meshes.push(crate::solid::fixture_solid(&knob).unwrap());
+        assembly.fixtures.push(knob);
+        let parts = Parts { assembly: &assembly, meshes: &meshes };
+        let (document, ..) = gltf::import_slice(Glb::default().bytes(parts).unwrap()).unwrap();
+        let gear = document.nodes().find(|n| n.name() == Some("follower")).unwrap();
+        assert_eq!(
+            gear.children().map(|n| n.name().unwrap().to_owned()).collect::<Vec<_>>(),
+            ["knob"]
+        );
     }
 
     #[test]

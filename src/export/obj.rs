@@ -1,19 +1,22 @@
 //! Wavefront OBJ: all parts in one file, standing in mesh.
 
+use super::contours::color;
 use super::{Artifact, Encode, EncodeError, Entry, Parts};
 use crate::policy;
 use crate::solid::{Mesh, shade};
 use nalgebra::{Isometry3, Point3, Vector3};
 use obj_exporter::{Geometry, ObjSet, Object, Primitive, Shape, Vertex};
+use std::fmt::Write as _;
 
-/// `pair.obj`: one object per part in the first pose of the motion, mm, six decimals, with normals.
+/// `pair.obj`: one object per part in the first pose of the motion, mm, six decimals, with normals; `pair.mtl`: a material
+/// for each, in the part's colour.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Obj;
 
 /// See [`Entry`].
 pub(super) const ENTRY: Entry = Entry {
     name: "obj",
-    files: &[(&["pair.obj"], "modelling programs")],
+    files: &[(&["pair.obj", MATERIALS], "modelling programs; a material a part")],
     solid: true,
     encoders: |_| vec![Box::new(Obj)],
     ..Entry::PLAIN
@@ -21,11 +24,46 @@ pub(super) const ENTRY: Entry = Entry {
 
 impl Encode for Obj {
     fn encode<'a>(&'a self, parts: Parts<'a>) -> Result<Vec<Artifact<'a>>, EncodeError> {
-        Ok(vec![Artifact::stream("pair.obj", move |mut out| {
+        let solids = Artifact::stream("pair.obj", move |out| {
             let set = ObjSet { material_library: None, objects: objects(parts) };
-            obj_exporter::export(&set, &mut out)
-        })])
+            let mut plain = Vec::new();
+            obj_exporter::export(&set, &mut plain)?;
+            // The crate leaves materials out: the library goes before everything, each name after its object's.
+            writeln!(out, "mtllib {MATERIALS}")?;
+            for line in plain.split_inclusive(|byte| *byte == b'\n') {
+                out.write_all(line)?;
+                if let Some(name) = line.strip_prefix(b"o ") {
+                    writeln!(out, "usemtl {}", word(String::from_utf8_lossy(name).trim()))?;
+                }
+            }
+            Ok(())
+        });
+        Ok(vec![solids, Artifact::bytes(MATERIALS, materials(parts))])
     }
+}
+
+/// The file of materials that the objects name.
+const MATERIALS: &str = "pair.mtl";
+
+/// Names in these files end at a blank.
+fn word(name: &str) -> String {
+    name.replace(char::is_whitespace, "_")
+}
+
+/// A matt material for each part.
+fn materials(parts: Parts<'_>) -> String {
+    let gears = parts.iter().enumerate().map(|(i, (g, _))| (&g.gear.name, color(i)));
+    let fixtures = parts.fixtures().map(|(f, _)| (&f.name, policy::FIXTURE_COLOR));
+    let mut text = String::from("# Materials of pair.obj\n");
+    for (name, rgb) in gears.chain(fixtures) {
+        let [r, g, b] = rgb.map(|c| f64::from(c) / 255.0);
+        let _ = write!(
+            text,
+            "\nnewmtl {}\nKd {r:.4} {g:.4} {b:.4}\nKa 0 0 0\nKs 0.04 0.04 0.04\nNs 40\nd 1\nillum 2\n",
+            word(name)
+        );
+    }
+    text
 }
 
 fn objects(parts: Parts<'_>) -> Vec<Object> {
@@ -98,6 +136,13 @@ mod tests {
             }
         }
         assert_eq!(read.len(), 2);
+        // Every material that is used is in the library that is named.
+        let library = std::fs::read_to_string(folder.path().join("pair.mtl")).unwrap();
+        assert!(text.contains("mtllib pair.mtl"));
+        for used in text.lines().filter_map(|l| l.strip_prefix("usemtl ")) {
+            assert!(library.contains(&format!("newmtl {}\n", used.trim())), "{used}");
+        }
+        assert_eq!(text.matches("usemtl").count(), 2);
         for (((name, mesh), original), placed) in read.iter().zip(&meshes).zip(&assembly.gears) {
             assert_eq!(*name, placed.gear.name);
             let expected = Expected { volume: original.volume(), genus: 1 };

@@ -1,5 +1,6 @@
 //! Shapes by path or built-in name: the one place in this room that reads files.
 
+use super::text::{PREFIX, TextError, outline_of};
 use super::{ImageError, PointsError, SvgError, from_columns, from_image, from_json, from_svg};
 use crate::outline::{Outline, Smoothing, library, smooth};
 use crate::policy;
@@ -109,6 +110,9 @@ pub enum LoadError {
         /// What is wrong.
         error: SvgError,
     },
+    /// A text that is no shape.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// A mistake in an image.
     #[error("{path}: {error}")]
     Image {
@@ -130,12 +134,17 @@ pub enum LoadError {
 /// Loads a drawing and smooths it.
 ///
 /// `source` is a path if such a file exists or if it contains a separator or a dot, otherwise
-/// the name of a built-in shape ([`library::names`]). Files are recognised by their content;
+/// the name of a built-in shape ([`library::names`]), or `text:` and a letter. Files are recognised by their content;
 /// the extension decides only where the content does not.
 ///
 /// # Errors
 /// See [`LoadError`].
 pub fn load(source: &str, options: &LoadOptions) -> Result<Shape, LoadError> {
+    if let Some(text) = source.strip_prefix(PREFIX) {
+        let raw = outline_of(text)?;
+        let outline = smooth(&raw, options.smoothing, options.samples.max(16));
+        return Ok(Shape { name: quoted(text), raw, outline });
+    }
     let built_in = library::svg(source).filter(|_| !Path::new(source).is_file());
     let (name, raw) = if let Some(text) = built_in {
         let outline = from_svg(text.as_bytes(), options.flatten_tolerance);

@@ -6,6 +6,7 @@ mod points;
 mod silhouette;
 mod svg;
 mod svg_guard;
+mod text;
 mod toothed;
 
 pub use drawing::{LoadError, LoadOptions, Shape, load, shape_from_bytes};
@@ -13,4 +14,5 @@ pub(crate) use points::split_fields;
 pub use points::{PointsError, from_columns, from_json};
 pub use silhouette::{ImageError, from_image};
 pub use svg::{SvgError, from_svg};
+pub use text::TextError;
 pub use toothed::{PairRecord, Thinned, Toothed, ToothedError, load_toothed, toothed_from_bytes};

@@ -216,7 +216,7 @@ pub enum LawError {
     },
     /// No such preset, or a number it does not take.
     #[error(
-        "{given:?} is no preset; write constant, ellipse:0.5, eccentric:0.4, dwell:0.1 or quick-return:2 ({why})"
+        "{given:?} is no preset; write constant, ellipse:0.5, eccentric:0.4, oval:0.5..2, dwell:0.1 or quick-return:2 ({why})"
     )]
     Preset {
         /// What was given.

@@ -12,7 +12,7 @@ mod table;
 
 pub use error::LawError;
 pub use formula::Formula;
-pub use preset::Preset;
+pub use preset::{PRESETS, Preset, PresetHelp};
 pub use segment::{Segment, from_segment};
 pub use table::Table;
 
