@@ -494,6 +494,9 @@ pub(crate) struct FitArgs {
     /// How many starts the refinement makes; each step takes about four times as long
     #[arg(long, default_value = "2", value_name = "1..5", value_parser = clap::value_parser!(u8).range(1..=5))]
     pub(crate) effort: u8,
+    /// Shapes to turn over first; auto turns the follower over where that makes a clearly better pair
+    #[arg(long, value_enum, default_value_t = MirrorArg::None)]
+    pub(crate) mirror: MirrorArg,
     /// Write the N best different pairs to choose from (alternatives.html, alternatives.json), and no gears
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=12), conflicts_with_all = ["choose", "symmetric"])]
     pub(crate) alternatives: Option<u8>,
@@ -571,6 +574,21 @@ pub(crate) enum SearchArg {
     Coarse,
     /// Recursive 3x3 grid of the paper
     Paper,
+}
+
+/// Which shapes are turned over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MirrorArg {
+    /// Neither
+    None,
+    /// The driver's
+    Driver,
+    /// The follower's
+    Follower,
+    /// Both: the same pair seen from behind
+    Both,
+    /// The follower's, if the pair is clearly better for it
+    Auto,
 }
 
 /// Style of teeth.

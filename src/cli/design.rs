@@ -12,6 +12,7 @@ use centrode::report::Alternatives;
 use super::Outcome;
 use super::args::{DesignArgs, SearchArg};
 use super::files::{Inputs, write_text};
+use super::mirror::mirrored;
 use super::progress::Progress;
 
 /// Names of what `--alternatives` writes.
@@ -19,13 +20,14 @@ const CHOICES: [&str; 2] = ["alternatives.html", "alternatives.json"];
 
 pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     let start = Instant::now();
-    let options = options(args)?;
+    let mut options = options(args)?;
     let progress = Progress::new();
     progress.doing("reading the shapes");
-    let (driver, follower) = (args.shape.read(&args.driver)?, args.shape.read(&args.follower)?);
+    let shapes = [args.shape.read(&args.driver)?, args.shape.read(&args.follower)?];
     let paths = [args.driver.as_str(), &args.follower];
     args.shape.warn_of_no_image(paths, &progress);
     let inputs = Inputs { paths: &paths, what: "drawing" };
+    let [driver, follower] = mirrored(shapes, args.fit.mirror, &mut options, &progress.control())?;
     if let Some(count) = args.fit.alternatives {
         return choices(
             args,

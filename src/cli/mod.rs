@@ -11,6 +11,7 @@ mod gallery;
 mod gallery_shapes;
 mod making;
 mod mate;
+mod mirror;
 mod motion;
 mod outfit;
 mod presets;

@@ -123,13 +123,11 @@ fn mated(
     let curve = centrodes.driver_curve(policy::PLACEMENT_SAMPLES * folds.0 as usize);
     let scale = (geometry::area(&curve) / geometry::area(points)).sqrt();
     let placement = Similarity { center: axis, angle: 0.0, scale };
-    let placed: Vec<Point> = points.iter().map(|p| placement.apply(*p)).collect();
-    let iou = geometry::intersection_over_union(&curve, &placed);
     Ok(Mated {
         transmission: centrodes.transmission,
         raw: seat.raw,
         limited: seat.change,
-        driver: FittedGear { center_in_input: axis, placement, iou, lost_area: seat.lost_area },
+        driver: FittedGear::laid(placement, (&curve, points), seat.lost_area),
         cost: seat.cost,
     })
 }

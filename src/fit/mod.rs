@@ -12,6 +12,7 @@ mod fitter;
 mod global_search;
 mod grid;
 mod laws;
+mod likeness;
 mod limits;
 mod lipschitz;
 mod mate;
@@ -27,6 +28,7 @@ mod symmetric;
 
 pub use difference::difference;
 pub use fitter::Fitter;
+pub use likeness::contour_share;
 pub use limits::{LimitCost, LimitError, Limits, apply};
 pub use mate::{Mated, mate};
 pub use objective::{Fixed, Objective};
@@ -197,7 +199,7 @@ pub enum FitError {
 pub struct Fit {
     /// The pair's motion, limits kept. At driver angle 0 the driver's drawing stands upright.
     pub transmission: Transmission,
-    /// Eq. 14 before limits: psi' at the driver angles of [`Transmission::samples`].
+    /// Eq. 14 before limits, or the refined law: psi' at the driver angles of [`Transmission::samples`].
     pub raw: Vec<f64>,
     /// E and its parts.
     pub objective: Objective,

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::likeness::contour_share;
 use super::objective::{Candidate, Problem, Scored};
 use super::{Fit, FitError};
 use crate::gear::Side;
@@ -38,8 +39,34 @@ pub struct FittedGear {
     pub placement: Similarity,
     /// Area of the intersection over area of the union of pitch curve and drawing as placed.
     pub iou: f64,
+    /// Share of the contours of both that runs where the other one does, see [`super::contour_share`].
+    pub contour: f64,
     /// Area (over the drawing's) that the outermost crossings of rays from the centre fill in.
     pub lost_area: f64,
+}
+
+impl FittedGear {
+    /// A drawing laid on its pitch curve, both measured.
+    pub(super) fn laid(
+        placement: Similarity,
+        (curve, input): (&[Point], &[Point]),
+        lost_area: f64,
+    ) -> Self {
+        let placed: Vec<Point> = input.iter().map(|p| placement.apply(*p)).collect();
+        Self {
+            center_in_input: placement.center,
+            placement,
+            iou: geometry::intersection_over_union(curve, &placed),
+            contour: contour_share(curve, &placed),
+            lost_area,
+        }
+    }
+
+    /// Likeness to a person's eye: the mean of the shares of area and of contour.
+    #[must_use]
+    pub fn likeness(&self) -> f64 {
+        0.5 * (self.iou + self.contour)
+    }
 }
 
 pub(super) fn place(
@@ -78,9 +105,7 @@ pub(super) fn place(
         if search > 0.0 {
             placement.angle = best_angle(input, curve, &placement, search);
         }
-        let placed: Vec<Point> = input.iter().map(|p| placement.apply(*p)).collect();
-        let iou = geometry::intersection_over_union(curve, &placed);
-        FittedGear { center_in_input: center, placement, iou, lost_area }
+        FittedGear::laid(placement, (curve, input), lost_area)
     };
     let driver =
         fitted(candidate.driver, problem.driver, &driver_curve, 0.0, scored.lost_area.0, 0.0);

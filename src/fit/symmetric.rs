@@ -320,9 +320,7 @@ fn fit_symmetric(
     let fitted = |curve: Vec<Point>, angle: f64| {
         let scale = (geometry::area(&curve) / geometry::area(points)).sqrt();
         let placement = Similarity { center: axis, angle, scale };
-        let placed: Vec<Point> = points.iter().map(|p| placement.apply(*p)).collect();
-        let iou = geometry::intersection_over_union(&curve, &placed);
-        FittedGear { center_in_input: axis, placement, iou, lost_area: seat.lost_area }
+        FittedGear::laid(placement, (&curve, points), seat.lost_area)
     };
     let count = policy::PLACEMENT_SAMPLES;
     let driver = fitted(centrodes.driver_curve(count), 0.0);

@@ -102,6 +102,7 @@ fn edit_distance(a: &[char], b: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry;
     use crate::input::from_svg;
     use crate::policy;
 
@@ -111,6 +112,21 @@ mod tests {
             let outline = from_svg(svg(name).unwrap().as_bytes(), policy::FLATTEN_TOLERANCE);
             assert!(outline.is_ok(), "{name}: {outline:?}");
         }
+    }
+
+    #[test]
+    fn inner_drawing_leaves_the_outline_as_it_is() {
+        let mut with_inner = 0;
+        for name in names() {
+            let whole = svg(name).unwrap();
+            let silhouette = whole.find("/>").map(|end| format!("{}/></svg>", &whole[..end]));
+            let read = |text: &str| from_svg(text.as_bytes(), policy::FLATTEN_TOLERANCE).unwrap();
+            let (whole, bare) = (read(whole), read(&silhouette.unwrap()));
+            let shared = geometry::intersection_over_union(whole.points(), bare.points());
+            assert!(shared > 1.0 - 1e-6, "{name}: {shared}");
+            with_inner += usize::from(svg(name).unwrap().contains("white"));
+        }
+        assert!(with_inner > 30, "{with_inner}");
     }
 
     #[test]

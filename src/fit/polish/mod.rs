@@ -100,14 +100,7 @@ pub(super) fn polished(
     plan: &Plan,
 ) -> Vec<Fit> {
     let drawings = [Drawing::new(problem.driver), Drawing::new(problem.follower)];
-    let wish = Wish {
-        ratio: problem.ratio,
-        balance: problem.balance,
-        torque: TORQUE * problem.weight,
-        most: problem.limits.max_derivative.unwrap_or(f64::INFINITY),
-        steepest: problem.limits.max_lean.tan(),
-        held: [Side::Driver, Side::Follower].map(|side| problem.fixed.axis(side).is_some()),
-    };
+    let wish = wish(problem);
     let rasters = [0, 1].map(|i| Raster::new(&drawings[i].points));
     let candidates = &candidates[..candidates.len().min(plan.candidates)];
     let mut paths = starts(problem, &wish, &drawings, candidates, plan);
@@ -148,6 +141,17 @@ pub(super) fn polished(
     ends.push((before, Fit { refinement: Some(unchanged), ..found }));
     ends.sort_by(|a, b| a.0.total_cmp(&b.0));
     ends.into_iter().map(|e| e.1).collect()
+}
+
+fn wish(problem: &Problem<'_>) -> Wish {
+    Wish {
+        ratio: problem.ratio,
+        balance: problem.balance,
+        torque: TORQUE * problem.weight,
+        most: problem.limits.max_derivative.unwrap_or(f64::INFINITY),
+        steepest: problem.limits.max_lean.tan(),
+        held: [Side::Driver, Side::Follower].map(|side| problem.fixed.axis(side).is_some()),
+    }
 }
 
 /// The best few that differ.
@@ -261,16 +265,15 @@ fn delivered(
         let scale = geometry::area(&curves[i]).sqrt() / drawings[i].size;
         let placement = Similarity { center, angle, scale };
         let input = if i == 0 { problem.driver } else { problem.follower };
-        let placed: Vec<Point> = input.iter().map(|p| placement.apply(*p)).collect();
-        let iou = geometry::intersection_over_union(&curves[i], &placed);
-        Ok(FittedGear { center_in_input: center, placement, iou, lost_area })
+        Ok(FittedGear::laid(placement, (&curves[i], input), lost_area))
     };
     let driver = fitted(0, Side::Driver, 0.0)?;
     let follower = fitted(1, Side::Follower, x[5] - before.psi(start))?;
     let objective = judged(problem, &driver, &follower, &limited)?;
     Ok(Fit {
         transmission: centrodes.transmission,
-        raw,
+        // Bounds that hold already need not be put on again, with the rounding that comes with them.
+        raw: law,
         objective,
         limited,
         driver,
