@@ -50,6 +50,8 @@ pub struct MadeLimits {
     pub noted_backlash: f64,
     /// Working pressure angle, radians: warns. 70 degrees: with friction the pair may bind.
     pub pressure_angle: f64,
+    /// Coefficient of friction at which the pair must not lock itself: warns. 0.25: dry PLA on itself.
+    pub friction: f64,
 }
 
 impl Default for Limits {
@@ -79,6 +81,7 @@ impl Default for MadeLimits {
             backlash: 0.45,
             noted_backlash: 0.35,
             pressure_angle: 70_f64.to_radians(),
+            friction: 0.25,
         }
     }
 }

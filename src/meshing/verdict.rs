@@ -111,6 +111,7 @@ pub fn judge_contact(
             let warning = Diagnostic::warning(Code::PressureAngle, stage);
             found.push(warning.at_driver_angle(worst.driver_angle).with("angle", worst.value));
         }
+        found.extend(foretell(contact, made.friction, Side::Driver).and_then(|f| locks(&f)));
     }
     if let (Some(angle), Some(share)) =
         (summary.transmission_error, summary.transmission_error_pitch)
@@ -135,11 +136,7 @@ pub fn judge_run(run: &Dynamics, module: f64, limits: &Limits) -> Vec<Diagnostic
         let at = run.steps.first().map_or(0.0, |step| step.driver_angle);
         found.push(fault(Code::FlungApart, at));
     }
-    if let Some(foretold) = run.foretold.filter(Foretold::locks) {
-        let mut locks = warning(Code::SelfLocking, foretold.least.driver_angle);
-        locks.stage = StageName::Analysed;
-        found.push(locks.with("friction", foretold.friction));
-    }
+    found.extend(run.foretold.as_ref().and_then(locks));
     match run.stopped {
         Some(Stop::Stalled { driver_angle }) => found.push(fault(Code::Jam, driver_angle)),
         Some(Stop::Diverged { driver_angle }) => found.push(fault(Code::FlungApart, driver_angle)),
@@ -183,6 +180,15 @@ pub fn judge_run(run: &Dynamics, module: f64, limits: &Limits) -> Vec<Diagnostic
         found.push(losses.with("share", s.efficiency).with("limit", limits.efficiency));
     }
     found
+}
+
+/// The finding of a pair that locks itself by friction.
+fn locks(foretold: &Foretold) -> Option<Diagnostic> {
+    foretold.locks().then(|| {
+        Diagnostic::warning(Code::SelfLocking, StageName::Analysed)
+            .at_driver_angle(foretold.least.driver_angle)
+            .with("friction", foretold.friction)
+    })
 }
 
 /// Transmission error peak to peak, radians and local pitches, wherever it was measured.
