@@ -116,7 +116,7 @@ pub(crate) struct GalleryArgs {
     /// Make the pitch curves only: no teeth, no verdict
     #[arg(long, conflicts_with_all = ["simulate", "thorough"])]
     pub(crate) no_teeth: bool,
-    /// Judge every pair as `design` does: at three times as many poses, and relieved
+    /// Judge every pair as `design` does, at three times as many poses
     #[arg(long)]
     pub(crate) thorough: bool,
     /// Run every pair as rigid bodies too; implies --thorough

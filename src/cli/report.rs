@@ -329,7 +329,7 @@ fn sections(made: &Design) -> Vec<Section> {
                 100.0 * error.median_deviation,
                 100.0 * error.p99_deviation
             ),
-            "of a pitch, without clearance",
+            "of a pitch, against the motion that the flanks were made for",
         );
     }
     if let Some(worst) = &contact.max_pressure_angle {

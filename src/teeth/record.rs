@@ -9,7 +9,7 @@ use crate::policy;
 /// How a tooth differs from the rack's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ToothShape {
-    /// Full height at the pressure angle asked for.
+    /// Full height, no flank steeper than the pressure angle asked for; flatter where the pitch curve slopes.
     Full,
     /// Full height, but a flank needed a steeper pressure angle to stay in contact.
     Steeper,
