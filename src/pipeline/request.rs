@@ -92,6 +92,7 @@ impl Request {
         if let BoreChoice::Exactly(bore) = options.bore {
             bore.polygon(policy::BORE_CHORD_TOLERANCE)?;
         }
+        options.outfit.check_fit(&options.bore)?;
         if let Scale::CenterDistance(distance) = options.scale {
             options.outfit.check_distance(distance)?;
         }
