@@ -300,7 +300,7 @@ fn open_at(pieces: &[&Contour], all: &[Contour], source: Source<'_>, unit: Unit)
         c.points.first().into_iter().chain(c.points.last()).copied().collect::<Vec<Point>>()
     };
     let of_pieces: Vec<Point> = pieces.iter().take(OPEN_PIECES).flat_map(|c| ends(c)).collect();
-    let others: Vec<Point> = all.iter().take(OPEN_PIECES).flat_map(|c| ends(c)).collect();
+    let others: Vec<Point> = all.iter().take(OPEN_PIECES).flat_map(ends).collect();
     let near = |at: Point| {
         let apart = of_pieces
             .iter()

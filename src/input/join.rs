@@ -2,7 +2,7 @@
 
 use super::contours::Contour;
 use crate::geometry::{self, Point, Vector, cross};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Ends this close belong together whatever the tolerance, over the diagonal of the drawing: rounding of written numbers.
 const EXACT_GAP: f64 = 1e-6;
@@ -66,13 +66,13 @@ pub(super) fn joined(
 fn once(pieces: Vec<Contour>, exact: f64) -> Vec<Contour> {
     let step = exact.max(f64::MIN_POSITIVE);
     let cell = |p: Point| [(p.x / step).round() as i64, (p.y / step).round() as i64];
-    let mut seen: HashMap<([i64; 2], [i64; 2], [i64; 2]), ()> = HashMap::new();
+    let mut seen: HashSet<[[i64; 2]; 3]> = HashSet::new();
     let mut kept = Vec::with_capacity(pieces.len());
     for piece in pieces {
         let (Some(&a), Some(&b)) = (piece.points.first(), piece.points.last()) else { continue };
         let (a, b) = (cell(a), cell(b));
         let middle = cell(halfway(&piece.points));
-        if piece.points.len() > 1 && seen.insert((a.min(b), a.max(b), middle), ()).is_none() {
+        if piece.points.len() > 1 && seen.insert([a.min(b), a.max(b), middle]) {
             kept.push(piece);
         }
     }

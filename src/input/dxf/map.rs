@@ -19,7 +19,7 @@ impl Map {
     pub(super) fn of_extrusion(normal: [f64; 3]) -> Option<Self> {
         let [x, y, z] = normal;
         let length = (x * x + y * y + z * z).sqrt();
-        if !(length > 0.0) {
+        if length == 0.0 {
             return Some(Self::IDENTITY);
         }
         match z / length {

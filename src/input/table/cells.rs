@@ -141,7 +141,7 @@ pub(super) fn chosen(rows: &[&[Cell]]) -> Option<(usize, usize)> {
 
 /// The fields of a line of numbers, decimal points for decimal commas: see [`super::from_columns`].
 pub(crate) fn split_fields(line: &str) -> Vec<String> {
-    if line.contains('"') && line.matches('"').count() % 2 == 0 && !line.contains(" \"") {
+    if line.contains('"') && line.matches('"').count().is_multiple_of(2) && !line.contains(" \"") {
         let bare: String = line.split('"').step_by(2).collect();
         let mark = [';', '\t', ','].into_iter().find(|m| bare.contains(*m));
         if let Some(mark) = mark {
