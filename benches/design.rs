@@ -136,7 +136,7 @@ fn whole(c: &mut Criterion) {
     let finished = |i: usize| {
         let gear: &Gear = &made.assembly.gears[i].gear;
         let outline = Outline::new(gear.outline.clone()).expect("a simple outline");
-        Toothed { outline, holes: Vec::new(), thinned: None, record: None }
+        Toothed { outline, holes: Vec::new(), thinned: None, record: None, notes: Vec::new() }
     };
     let finished = [finished(0), finished(1)];
     for (name, runs) in [

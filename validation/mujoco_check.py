@@ -72,7 +72,9 @@ class Scene:
             raise play.BadDesign(f"scene.xml has {self.model.njnt} gears, not a pair")
 
     def numeric(self, name):
-        found = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_NUMERIC, name)
+        # Names begin with those of the gears and a slash.
+        names = [self.model.numeric(i).name for i in range(self.model.nnumeric)]
+        found = next((i for i, n in enumerate(names) if n.rsplit("/", 1)[-1] == name), -1)
         if found < 0:
             raise play.BadDesign(f"scene.xml has no numeric {name}")
         start = self.model.numeric_adr[found]

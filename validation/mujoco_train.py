@@ -57,9 +57,9 @@ def main(folder, cycles):
         return at * mean + wave(np.mod(at, cycle))
 
     def number(name):
-        return model.numeric_data[
-            model.numeric_adr[mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, name)]
-        ]
+        # Names begin with those of the gears and a slash.
+        names = [model.numeric(i).name.rsplit("/", 1)[-1] for i in range(model.nnumeric)]
+        return model.numeric_data[model.numeric_adr[names.index(name)]]
 
     speed = number("rpm") * 2 * math.pi / 60
     tooth = 2 * math.pi / number("teeth")

@@ -60,17 +60,6 @@ pub enum CheckError {
         /// Most that are counted.
         most: u32,
     },
-    /// The gears are too far apart at every angle.
-    #[error("the gears never touch: {gap:.3} mm are left between them; bring the axes closer")]
-    NeverTouch {
-        /// What is left at least, mm.
-        gap: f64,
-    },
-    /// No angle of the follower at which the teeth interlock.
-    #[error(
-        "the outlines overlap from the start, whichever way the follower is turned; correct --center-distance or the outlines' scale"
-    )]
-    OverlapAtStart,
     /// The motion is no motion.
     #[error(transparent)]
     Motion(#[from] MotionFileError),

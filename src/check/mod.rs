@@ -15,7 +15,7 @@ pub use motion::{MotionFileError, motion_from_columns};
 
 use crate::control::{Control, StageName};
 use crate::diagnose::{Code, Diagnostic, Limits, Verdict};
-use crate::gear::Side;
+use crate::gear::{Motion, Side};
 use crate::geometry::Point;
 use crate::input::{PairRecord, Toothed};
 use crate::meshing::{
@@ -109,7 +109,7 @@ pub struct CheckReport {
     pub center_distance: f64,
     /// Teeth of driver and follower.
     pub teeth: [u32; 2],
-    /// Module by the spacing of the teeth.
+    /// Module: length of the pitch curve over pi and its teeth; by the spacing of the teeth where no motion was found.
     pub module: f64,
     /// Turn of the follower's drawing at driver angle 0, clockwise.
     pub phase: f64,
@@ -151,6 +151,7 @@ pub fn check(
                 side, t.from, t.to, t.tolerance
             ));
         }
+        notes.extend(gear.notes.iter().map(|note| format!("{side}: {note}")));
     }
     let record = common_record(driver, follower);
     let center_distance = options
@@ -160,23 +161,42 @@ pub fn check(
     if !(center_distance.is_finite() && center_distance > 0.0) {
         return Err(CheckError::NotPositive { name: "centre distance", value: center_distance });
     }
-    let axes = [
+    let found = [
         axis::axis(driver, Side::Driver, options.axes[0])?,
         axis::axis(follower, Side::Follower, options.axes[1])?,
     ];
+    let axes = found.each_ref().map(|(axis, source, _)| (*axis, *source));
+    notes.extend(found.into_iter().filter_map(|(.., note)| note));
     let pair = set_up([driver, follower], &axes, center_distance, record, options.teeth)?;
+    if let Some(gap) = apart(&pair) {
+        let sizes = [driver, follower].map(|gear| {
+            let (low, high) = gear.outline.bounds();
+            high - low
+        });
+        notes.push(format!(
+            "as read, the driver is {:.3} x {:.3} mm and the follower {:.3} x {:.3} mm; if that is not their size, correct the units of the files",
+            sizes[0].x, sizes[0].y, sizes[1].x, sizes[1].y
+        ));
+        let fault = Diagnostic::fault(Code::NoContact, StageName::Analysed).with("gap", gap);
+        return Ok(unjudged(&pair, axes, fault, options.phase, notes));
+    }
     let known = match motion::known(&pair, record, &options.motion)? {
         Some(known) => known,
         None => match derived(&pair, options.phase) {
             Ok(known) => known,
-            Err(Untraced::NoStart) => return Err(CheckError::OverlapAtStart),
+            Err(Untraced::NoStart) => {
+                return Ok(unjudged(&pair, axes, overlap(&pair), options.phase, notes));
+            }
             Err(reason) => return Ok(unmoved(&pair, axes, reason, options.phase, notes)),
         },
     };
     let given = options.phase.or(known.phase.filter(|_| known.source == MotionSource::Record));
     let phase = match given.or(known.phase) {
         Some(phase) => phase,
-        None => phase::for_motion(&pair, &*known.motion).ok_or(CheckError::OverlapAtStart)?.phase,
+        None => match phase::for_motion(&pair, &*known.motion) {
+            Some(found) => found.phase,
+            None => return Ok(unjudged(&pair, axes, overlap(&pair), options.phase, notes)),
+        },
     };
     judged(&pair, axes, &known, (phase, given.is_some()), options, notes)
 }
@@ -204,11 +224,6 @@ fn set_up(
         gears[i].outline.points().iter().map(|p| p - axes[i].0.coords).collect()
     };
     let outlines = [centred(0), centred(1)];
-    let reach = |o: &[Point]| o.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
-    let gap = center_distance - reach(&outlines[0]) - reach(&outlines[1]);
-    if gap >= 0.0 {
-        return Err(CheckError::NeverTouch { gap });
-    }
     let known = teeth.or(record.and_then(|r| r.teeth));
     let counted = |i: usize| {
         let gear = Side::BOTH[i];
@@ -224,6 +239,42 @@ fn set_up(
     teeth::settle(&mut teeth);
     Ok(Pair::new(driver, follower, center_distance, teeth))
 }
+
+/// What is left between the gears at every angle, mm, if they cannot touch.
+fn apart(pair: &Pair) -> Option<f64> {
+    let reach = |o: &[Point]| o.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+    let gap = pair.center_distance - reach(&pair.driver) - reach(&pair.follower);
+    (gap >= 0.0).then_some(gap)
+}
+
+/// The overlap at driver angle 0, of the follower turned where it is least.
+fn overlap(pair: &Pair) -> Diagnostic {
+    let depth = (0..OVERLAP_ANGLES)
+        .map(|i| pair.depth(0.0, TAU * f64::from(i) / f64::from(OVERLAP_ANGLES)))
+        .fold(f64::INFINITY, f64::min);
+    Diagnostic::fault(Code::Overlap, StageName::Analysed).at_driver_angle(0.0).with("depth", depth)
+}
+
+/// Angles of the follower at which the overlap of a pair that does not fit is looked at.
+const OVERLAP_ANGLES: u32 = 720;
+
+/// Module by the length of both pitch curves over the teeth that roll by: twice the centre distance over the teeth of both
+/// where the gears are round.
+fn module_of(pair: &Pair, motion: &dyn Motion) -> f64 {
+    let teeth = f64::from(pair.teeth[0].count) * motion.cycle() / TAU;
+    let at = |i: u32| {
+        let angle = motion.cycle() * f64::from(i) / f64::from(MODULE_POSES);
+        let slope = motion.derivative(angle);
+        let radius = pair.center_distance * slope / (1.0 + slope);
+        Point::new(radius * angle.cos(), -radius * angle.sin())
+    };
+    let length: f64 = (0..MODULE_POSES).map(|i| (at(i + 1) - at(i)).norm()).sum();
+    let module = length / (std::f64::consts::PI * teeth);
+    if module.is_finite() && module > 0.0 { module } else { pair.module }
+}
+
+/// Chords in which the pitch curve is measured: 1e-7 of its length is lost.
+const MODULE_POSES: u32 = 8192;
 
 /// The motion that contact tells; round gears turn evenly.
 fn derived(pair: &Pair, phase: Option<f64>) -> Result<Known, Untraced> {
@@ -285,7 +336,7 @@ fn judged(
         axes,
         center_distance: pair.center_distance,
         teeth,
-        module: pair.module,
+        module: module_of(pair, &*known.motion),
         phase,
         phase_given,
         ratio: known.ratio(),
@@ -313,12 +364,29 @@ fn unmoved(
         Untraced::NotClosed { pitches } => fault(Code::SkippedTeeth).with("pitches", pitches),
     };
     notes.push("no motion could be derived from contact; --motion or --ratio gives one".to_owned());
+    unjudged(pair, axes, fault, phase, notes)
+}
+
+/// A pair of which the first look shows that it does not mesh.
+fn unjudged(
+    pair: &Pair,
+    axes: [(Point, AxisSource); 2],
+    fault: Diagnostic,
+    phase: Option<f64>,
+    notes: Vec<String>,
+) -> CheckReport {
+    let [driver, follower] = pair.teeth.each_ref().map(|t| f64::from(t.count));
+    let module = if pair.is_round() {
+        2.0 * pair.center_distance / (driver + follower)
+    } else {
+        pair.module
+    };
     CheckReport {
         diagnostics: vec![fault],
         axes,
         center_distance: pair.center_distance,
         teeth: [pair.teeth[0].count, pair.teeth[1].count],
-        module: pair.module,
+        module,
         phase: phase.unwrap_or(0.0),
         phase_given: phase.is_some(),
         ratio: pair.ratio(),

@@ -41,6 +41,64 @@ impl Teeth {
 /// are none the middle line runs along the roots, and is measured where it would run with teeth.
 pub(super) fn teeth(outline: &[Point], given: Option<u32>) -> Option<Teeth> {
     let points = evenly(outline);
+    let few = given.is_some_and(|n| (n as usize) < policy::COUNT_RANGE.0);
+    if few { lobes(&points, given) } else { many(&points, given).or_else(|| lobes(&points, given)) }
+}
+
+/// Share of the mean radius by which lobes rise and sink, at least.
+const LOBE_HEIGHT: f64 = 0.03;
+/// Stray of the distances of lobes, and of their heights, as shares of a lobe.
+const LOBES_ALIKE: f64 = 0.08;
+
+/// Few lobes about the axis, as on rotors: counted by the radius. One lobe is believed only where it was said.
+fn lobes(points: &[Point], given: Option<u32>) -> Option<Teeth> {
+    let n = points.len();
+    let radii: Vec<f64> = points.iter().map(|p| p.coords.norm()).collect();
+    let (low, high) =
+        radii.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), r| (l.min(*r), h.max(*r)));
+    let middle = 0.5 * (low + high);
+    let least = 0.25 * (high - low);
+    if (high - low) < LOBE_HEIGHT * middle {
+        return None;
+    }
+    let start = radii.iter().position(|r| *r < middle - least)?;
+    let (mut up, mut places, mut tops) = (false, Vec::new(), Vec::new());
+    for i in start..start + n {
+        let radius = radii[i % n];
+        if !up && radius > middle + least {
+            up = true;
+            let p = points[i % n];
+            places.push(p.y.atan2(p.x));
+            tops.push(radius);
+        } else if up && radius < middle - least {
+            up = false;
+        }
+        if up && let Some(top) = tops.last_mut() {
+            *top = radius.max(*top);
+        }
+    }
+    places.sort_by(f64::total_cmp);
+    let count = places.len();
+    let even = TAU / count.max(1) as f64;
+    let alike = spacings(&places, TAU).iter().all(|s| (s - even).abs() <= LOBES_ALIKE * even)
+        && tops.iter().all(|t| (high - t) <= LOBES_ALIKE * (high - low));
+    let believed = given.map_or(count >= 2, |g| g as usize == count);
+    if !(believed && alike) {
+        return None;
+    }
+    let count = u32::try_from(count).ok()?;
+    Some(Teeth {
+        count,
+        likely: (count, count),
+        pitch: middle * even,
+        round: true,
+        radius: vec![middle; policy::RADIUS_SAMPLES],
+    })
+}
+
+/// Regular teeth, as many as [`policy::COUNT_RANGE`] has.
+fn many(points: &[Point], given: Option<u32>) -> Option<Teeth> {
+    let points = points.to_vec();
     let mut scale = given.map_or_else(|| strongest_frequency(&points), |n| n as usize);
     let mut best = None;
     for _ in 0..4 {

@@ -97,6 +97,7 @@ fn gear(outline: Vec<Point>, holes: &[Point]) -> Toothed {
         holes: holes.iter().map(round).collect(),
         thinned: None,
         record: None,
+        notes: Vec::new(),
     }
 }
 
@@ -106,12 +107,12 @@ fn the_axis_is_the_bore_or_the_origin_or_asked_for() {
     let outline = || waves(30, 0.1, 0, 0);
     let moved: Vec<Point> = outline().iter().map(|p| p + shift * 20.0).collect();
     let found = |gear: &Toothed| axis::axis(gear, Side::Driver, None);
-    let (at, source) = found(&gear(outline(), &[Point::from(shift)])).unwrap();
+    let (at, source, _) = found(&gear(outline(), &[Point::from(shift)])).unwrap();
     assert!((at.coords - shift).norm() < 1e-9 && source == AxisSource::Bore);
     // Of several holes the one about the origin.
     let two = gear(outline(), &[Point::new(8.0, 0.0), Point::new(0.2, 0.0)]);
     assert!((found(&two).unwrap().0.x - 0.2).abs() < 1e-9);
-    assert_eq!(found(&gear(outline(), &[])), Ok((Point::origin(), AxisSource::Origin)));
+    assert_eq!(found(&gear(outline(), &[])), Ok((Point::origin(), AxisSource::Origin, None)));
     let none = found(&gear(moved, &[]));
     assert_eq!(none, Err(CheckError::NoAxis { gear: Side::Driver, holes: 0 }));
     let outside = axis::axis(&two, Side::Follower, Some(Point::new(90.0, 0.0)));
@@ -146,7 +147,7 @@ fn two_records_that_agree_tell_the_distance() {
 }
 
 #[test]
-fn gears_out_of_reach_and_numbers_that_are_none_are_refused() {
+fn gears_out_of_reach_or_in_each_other_fail_and_numbers_that_are_none_are_refused() {
     let wave = gear(waves(24, 0.0, 0, 0), &[]);
     let at = |center_distance| {
         check(&wave, &wave, &CheckOptions { center_distance, ..CheckOptions::default() })
@@ -156,10 +157,14 @@ fn gears_out_of_reach_and_numbers_that_are_none_are_refused() {
         assert!(matches!(at(Some(value)), Err(CheckError::NotPositive { .. })), "{value}");
     }
     // Two rims at 24 + 2 mm each.
-    match at(Some(55.0)) {
-        Err(CheckError::NeverTouch { gap }) => assert!((gap - 3.0).abs() < 0.1, "{gap}"),
-        other => panic!("{other:?}"),
-    }
+    let figure = |distance, code, name| {
+        let report = at(Some(distance)).unwrap();
+        report.diagnostics.iter().find(|d| d.code == code).and_then(|d| d.figure(name)).unwrap()
+    };
+    let gap = figure(55.0, Code::NoContact, "gap");
+    assert!((gap - 3.0).abs() < 0.1, "{gap}");
+    let depth = figure(20.0, Code::Overlap, "depth");
+    assert!(depth > 1.0, "{depth}");
     let disc = gear(waves(24, 0.0, 0, 24), &[]);
     let options = CheckOptions { center_distance: Some(48.0), ..CheckOptions::default() };
     assert_eq!(check(&disc, &wave, &options), Err(CheckError::NoTeeth { gear: Side::Driver }));

@@ -250,6 +250,9 @@ pub(crate) struct CheckArgs {
     /// Turn of the follower's drawing, clockwise, at driver angle 0, degrees [default: found]
     #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     pub(crate) phase: Option<f64>,
+    /// Widest gap between ends of lines that is joined [default: 0.05 mm, or 1e-4 of the drawing if that is more]
+    #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
+    pub(crate) join: Option<f64>,
     /// Judge by contact alone, without a rigid-body run
     #[arg(long)]
     pub(crate) no_simulate: bool,
@@ -452,6 +455,9 @@ pub(crate) struct ShapeArgs {
     /// Grey level that parts shape from background in images, 0 to 255 [default: automatic]
     #[arg(long, value_name = "LEVEL")]
     pub(crate) threshold: Option<u8>,
+    /// Widest gap between ends of lines that is joined [default: 0.05 mm, or 1e-4 of the drawing if that is more]
+    #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
+    pub(crate) join: Option<f64>,
 }
 
 /// How the gears are fitted to the drawings.
@@ -545,8 +551,8 @@ pub(crate) struct TeethArgs {
     /// Deliver nothing when a first attempt is not sound, instead of trying gentler settings
     #[arg(long)]
     pub(crate) strict: bool,
-    /// Write the files even when the pair is not sound (exit code 1)
-    #[arg(long, conflicts_with = "strict")]
+    /// Write the files even when the pair is not sound (exit code 1); with --strict those of the first attempt
+    #[arg(long)]
     pub(crate) force: bool,
 }
 

@@ -9,8 +9,8 @@ use centrode::check::{
     CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns,
 };
 use centrode::diagnose::{Diagnostic, Severity, of_severity};
-use centrode::gear::Side;
-use centrode::input::load_toothed;
+use centrode::gear::Pair;
+use centrode::input::load_gears;
 use centrode::meshing::{Direction, DynamicsOptions};
 use serde::Serialize;
 
@@ -41,8 +41,8 @@ pub(crate) fn run(args: &CheckArgs) -> anyhow::Result<Outcome> {
         ..CheckOptions::default()
     };
     progress.doing("reading the gears");
-    let driver = load_toothed(&args.driver, Side::Driver)?;
-    let follower = load_toothed(&args.follower, Side::Follower)?;
+    let Pair { driver, follower } =
+        load_gears(Pair::new(args.driver.as_str(), args.follower.as_str()), args.join)?;
     progress.doing("checking the pair");
     let report = check(&driver, &follower, &options)?;
     progress.done();

@@ -23,7 +23,8 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     let mut options = options(args)?;
     let progress = Progress::new();
     progress.doing("reading the shapes");
-    let shapes = [args.shape.read(&args.driver)?, args.shape.read(&args.follower)?];
+    let shapes =
+        [args.shape.read(&args.driver, &progress)?, args.shape.read(&args.follower, &progress)?];
     let paths = [args.driver.as_str(), &args.follower];
     args.shape.warn_of_no_image(paths, &progress);
     let inputs = Inputs { paths: &paths, what: "drawing" };

@@ -52,6 +52,7 @@ pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outc
     let reading = LoadOptions {
         threshold: args.shape.threshold,
         smoothing: args.shape.smoothing.map_or(Smoothing::Auto, Smoothing::Fixed),
+        join: args.shape.join,
         ..LoadOptions::default()
     };
     let from: Vec<&str> = args.from.iter().chain(&args.shapes).map(String::as_str).collect();

@@ -184,8 +184,12 @@ pub(super) fn write_into(
 
 impl ShapeArgs {
     /// Reads a drawing.
-    pub(crate) fn read(&self, source: &str) -> anyhow::Result<Shape> {
-        Ok(load(source, &self.options())?)
+    pub(crate) fn read(&self, source: &str, progress: &Progress) -> anyhow::Result<Shape> {
+        let shape = load(source, &self.options())?;
+        for note in &shape.notes {
+            progress.warn(&format!("{}: {note}", shape.name));
+        }
+        Ok(shape)
     }
 
     /// As the library takes them.
@@ -193,6 +197,7 @@ impl ShapeArgs {
         LoadOptions {
             threshold: self.threshold,
             smoothing: self.smoothing.map_or(Smoothing::Auto, Smoothing::Fixed),
+            join: self.join,
             ..LoadOptions::default()
         }
     }

@@ -15,7 +15,7 @@ pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
     let start = Instant::now();
     let progress = Progress::new();
     progress.doing("reading the shape");
-    let shape = args.reading.read(&args.shape)?;
+    let shape = args.reading.read(&args.shape, &progress)?;
     let making = args.pair.making();
     let paths = [args.shape.as_str()];
     args.reading.warn_of_no_image(paths, &progress);

@@ -135,7 +135,7 @@ pub(crate) fn point(text: &str) -> Result<Point, String> {
 
 /// Two tooth counts from `N,M`.
 pub(crate) fn two_counts(text: &str) -> Result<[u32; 2], String> {
-    let (least, most) = centrode::policy::COUNT_RANGE;
+    let (least, most) = (1, centrode::policy::COUNT_RANGE.1);
     let count = |t: &str| t.trim().parse().ok().filter(|n| (least..=most).contains(&(*n as usize)));
     let both = text.split_once(',').and_then(|(n, m)| count(n).zip(count(m)));
     both.map(|(n, m): (u32, u32)| [n, m]).ok_or_else(|| {

@@ -57,7 +57,7 @@ codes! {
     ContactLost = "contact-lost",
     /// Contact is lost when the load is reversed; `exact` likewise.
     ContactLostBackward = "contact-lost-backward",
-    /// The gears never touch.
+    /// The gears never touch; `gap` at every angle, if it is known.
     NoContact = "no-contact",
     /// The outlines overlap by `depth` at the designed pose.
     Overlap = "overlap",

@@ -116,7 +116,13 @@ impl fmt::Display for Diagnostic {
                 "driven backwards the pair loses contact; {}",
                 self.remedy_of_lost_contact()
             ),
-            Code::NoContact => write!(f, "the gears never touch; bring the axes closer"),
+            Code::NoContact => match self.figure("gap") {
+                Some(gap) => write!(
+                    f,
+                    "the gears never touch, {gap:.3} mm are left between them; bring the axes closer"
+                ),
+                None => write!(f, "the gears never touch; bring the axes closer"),
+            },
             Code::Overlap => write!(
                 f,
                 "the outlines overlap by {:.4} mm at {at:.1} degrees; give more clearance, fewer teeth or a larger centre distance",

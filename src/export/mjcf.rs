@@ -284,8 +284,19 @@ mod tests {
         assert_eq!(text.matches("<mesh ").count(), count);
         assert_eq!(text.matches("type=\"mesh\" mesh=").count(), count);
         assert_eq!(text.matches("<joint ").count(), 2 + 1, "a default and one for each gear");
-        for wanted in ["name=\"driver\"", "name=\"follower\"", "name=\"driver_torque\""] {
+        for wanted in [
+            "name=\"driver-follower/driver\"",
+            "name=\"driver-follower/follower\"",
+            "name=\"driver-follower/driver_torque\"",
+        ] {
             assert!(text.contains(wanted), "{wanted}");
+        }
+        // Names that others may have too stand nowhere alone.
+        for name in text.split(" name=\"").skip(1) {
+            assert!(name.starts_with("driver-follower/"), "{name:.40}");
+        }
+        for class in text.split(" class=\"").skip(1) {
+            assert!(class.starts_with("driver-follower/"), "{class:.40}");
         }
     }
 
@@ -304,7 +315,9 @@ mod tests {
         };
         let flags: Vec<[u64; 2]> = text
             .lines()
-            .filter(|l| l.contains("<default class=\"gear"))
+            .filter(|l| {
+                l.contains("/gear") && l.contains("<default class=") && l.contains("contype")
+            })
             .map(|l| ["contype", "conaffinity"].map(|name| attribute(l, name)))
             .collect();
         let touch =
@@ -312,7 +325,11 @@ mod tests {
         let touching = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|(i, k)| touch(i, k));
         assert_eq!(touching, [false, true, false, false, true, false]);
         // The third turns counter-clockwise again, so its load pulls clockwise.
-        assert!(text.contains("joint=\"third\" gaintype=\"fixed\" gainprm=\"-1\""));
+        assert!(
+            text.contains(
+                "joint=\"driver-follower-third/third\" gaintype=\"fixed\" gainprm=\"-1\""
+            )
+        );
         assert!(text.contains("biasprm=\"-70 0 0\""));
     }
 

@@ -37,6 +37,13 @@ pub fn positive_part(points: &[Point]) -> Vec<Face> {
     faces(plain(points).simplify_shape_as::<i64>(FillRule::Positive))
 }
 
+/// The region that closed curves together wind round in the positive sense.
+#[must_use]
+pub fn positive_parts(rings: &[Vec<Point>]) -> Vec<Face> {
+    let rings: Vec<_> = rings.iter().map(|r| plain(r)).collect();
+    faces(rings.simplify_shape_as::<i64>(FillRule::Positive))
+}
+
 /// The face with the largest outer boundary.
 #[must_use]
 pub fn largest(faces: Vec<Face>) -> Option<Face> {

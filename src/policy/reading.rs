@@ -1,6 +1,6 @@
 //! Bounds on files that are read back.
 
-use super::{COUNT_RANGE, LARGEST_LENGTH, TEETH_RANGE};
+use super::{LARGEST_LENGTH, TEETH_RANGE};
 
 /// Longest record of a design, bytes: ten times what a pair of 1,000 teeth takes. A list of small numbers takes 16
 /// times its text in memory.
@@ -27,7 +27,7 @@ pub const RECORD_RINGS: usize = 2000;
 /// has 10,000.
 pub const CONTACT_MOST_MODULES: f64 = 1e6;
 /// Fewest and most teeth of a gear under check, whoever says so: the most that a design has.
-pub const TEETH_BELIEVED: (u32, u32) = (COUNT_RANGE.0 as u32, TEETH_RANGE.1);
+pub const TEETH_BELIEVED: (u32, u32) = (1, TEETH_RANGE.1);
 /// Characters of a file's text that a message repeats at most: three lines of a terminal.
 pub const QUOTED_LENGTH: usize = 240;
 /// Pairs of ends that are compared while lines of a drawing are joined (under a second): a gear of a million lines

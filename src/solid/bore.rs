@@ -95,10 +95,7 @@ impl Bore {
                 Err(SolidError::NotPositiveBore { diameter: size })
             }
         };
-        let round = |diameter: f64| {
-            let steps = chords(0.5 * diameter, chord_tolerance, TAU);
-            regular(0.5 * diameter / (PI / steps as f64).cos(), steps)
-        };
+        let round = |diameter: f64| hole(0.5 * diameter, chord_tolerance);
         Ok(Some(match self {
             Self::None => return Ok(None),
             Self::Round { diameter } => {
@@ -246,6 +243,14 @@ fn keyed(round: &[Point], half: f64, floor: f64) -> Vec<Point> {
 #[must_use]
 pub fn circle(radius: f64, chord_tolerance: f64) -> Vec<Point> {
     regular(radius, chords(radius, chord_tolerance, TAU))
+}
+
+/// A round hole about the origin, counter-clockwise: its chords touch the circle of `radius` and its corners lie within
+/// `chord_tolerance` outside, so that what is as wide as the circle goes in; same unit throughout.
+#[must_use]
+pub fn hole(radius: f64, chord_tolerance: f64) -> Vec<Point> {
+    let steps = chords(radius, chord_tolerance, TAU);
+    regular(radius / (PI / steps as f64).cos(), steps)
 }
 
 fn regular(radius: f64, steps: usize) -> Vec<Point> {

@@ -21,7 +21,7 @@ mod screw;
 mod shading;
 mod wall;
 
-pub use bore::{Bore, circle, pin_radius};
+pub use bore::{Bore, circle, hole, pin_radius};
 pub use bore_name::{BoreName, Fit, NoSuchBore, NotAScrew};
 pub use carve::{Carved, carve_follower_with_manifold};
 pub use check::{Expected, Fault, check};

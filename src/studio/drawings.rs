@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use centrode::input::{LoadError, LoadOptions, Shape, load, shape_from_bytes};
+use centrode::input::{InputError, LoadOptions, Shape, load, shape_from_bytes};
 use centrode::outline::library;
 
 use super::protocol::DrawingRef;
@@ -41,7 +41,7 @@ pub(super) enum DrawingError {
     Missing(String),
     /// It cannot be read.
     #[error(transparent)]
-    Load(#[from] LoadError),
+    Load(#[from] InputError),
 }
 
 impl Drawings {
@@ -98,7 +98,7 @@ impl Drawings {
                 let hint = library::nearest(&drawing.name)
                     .map(|known| format!(", did you mean `{known}`"))
                     .unwrap_or_default();
-                return Err(LoadError::Unknown { name, hint }.into());
+                return Err(InputError::Unknown { name, hint }.into());
             }
             let text = library::svg(&drawing.name).unwrap_or_default();
             let mut shape = shape_from_bytes(text.as_bytes(), "built-in.svg", options)?;
@@ -152,7 +152,7 @@ mod tests {
         std::fs::write(&path, "0,0\n4,0\n4,3\n0,3\n").unwrap();
         for name in [path.to_str().unwrap(), "/etc/passwd", "../box.csv", "heart.svg"] {
             let error = drawings.shape(&named(name, None), &LoadOptions::default()).unwrap_err();
-            assert!(matches!(error, DrawingError::Load(LoadError::Unknown { .. })), "{error}");
+            assert!(matches!(error, DrawingError::Load(InputError::Unknown { .. })), "{error}");
         }
         let unknown = drawings.shape(&named("heart", Some("no".into())), &LoadOptions::default());
         assert!(matches!(unknown, Err(DrawingError::Missing(_))));

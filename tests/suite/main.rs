@@ -4,6 +4,7 @@
 mod bad_input;
 mod check;
 mod common;
+mod corpus;
 mod design;
 mod faults;
 mod found;

@@ -21,6 +21,40 @@ pub(super) fn text(scene: &Scene<'_>) -> String {
     let _ = assets(scene, &mut out);
     let _ = world(scene, &mut out);
     let _ = machinery(scene, &mut out);
+    prefixed(&out, &prefix(scene))
+}
+
+/// What stands before every name, so that the scene can be included beside others: the gears' names and a slash.
+fn prefix(scene: &Scene<'_>) -> String {
+    let names: Vec<String> = scene.bodies.iter().map(|b| escaped(b)).collect();
+    // A long train is told by its ends.
+    match &names[..] {
+        [first, .., last] if names.len() > 3 => format!("{first}-to-{last}/"),
+        _ => format!("{}/", names.join("-")),
+    }
+}
+
+/// The text with `prefix` before every name and every reference to one.
+fn prefixed(text: &str, prefix: &str) -> String {
+    const NAMES: [&str; 8] =
+        ["name", "class", "childclass", "material", "texture", "mesh", "joint", "actuator"];
+    let mut out = String::with_capacity(text.len() + text.len() / 8);
+    for line in text.split_inclusive('\n') {
+        let mut rest = line;
+        // Each value between quotes goes on as it is, with the prefix where its attribute is one of names.
+        while let Some((before, after)) = rest.split_once("=\"") {
+            out.push_str(before);
+            out.push_str("=\"");
+            if NAMES.iter().any(|n| before.strip_suffix(n).is_some_and(|b| b.ends_with(' '))) {
+                out.push_str(prefix);
+            }
+            let (value, next) = after.split_once('"').unwrap_or((after, ""));
+            out.push_str(value);
+            out.push('"');
+            rest = next;
+        }
+        out.push_str(rest);
+    }
     out
 }
 
@@ -43,6 +77,7 @@ fn head(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
   The first gear is the driver and turns counter-clockwise at the speed of the design; ctrl[0] adds
   to that speed (rad/s). A constant torque holds the last gear back; ctrl[1] adds to it (N mm).
   Sensors: the angle of each gear; driver_torque, what the drive gives.
+  All names begin with those of the gears, so that the scene can be included in a world of one's own.
   custom: load (N mm), rpm, friction, kappa (inertia of the last gear x speed^2 x greatest |psi''| over the
   load), teeth of each gear, mm_per_unit, steps_per_tooth.
   Each body's mass sits off its axis: mass on a hinge would make contacts infinitely hard. Its
@@ -82,6 +117,7 @@ fn head(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
     <quality shadowsize=\"4096\"/>
   </visual>
   <default>
+   <default class=\"gears\">
     <joint type=\"hinge\" axis=\"0 0 1\"/>
     <geom solref=\"{:e} 2\" solimp=\"{i} {i} 0.001 0.5 2\" margin=\"0\" condim=\"{friction}\" friction=\"{} 0 0\"/>",
         center.x,
@@ -103,7 +139,7 @@ fn head(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
     }
     writeln!(
         out,
-        "    <default class=\"picture\"><geom contype=\"0\" conaffinity=\"0\"/></default>\n  </default>"
+        "    <default class=\"picture\"><geom contype=\"0\" conaffinity=\"0\"/></default>\n   </default>\n  </default>"
     )
 }
 
@@ -220,17 +256,11 @@ fn machinery(scene: &Scene<'_>, out: &mut String) -> std::fmt::Result {
         let name = escaped(body);
         writeln!(out, "    <jointpos name=\"{name}_angle\" joint=\"{name}\"/>")?;
     }
-    let speeds: Vec<String> =
-        scene.bodies.iter().map(|b| (b.speed_ratio * scene.speed).to_string()).collect();
     writeln!(
         out,
         "    <actuatorfrc name=\"driver_torque\" actuator=\"drive\"/>
   </sensor>
-  <keyframe>
-    <key name=\"turning\" qvel=\"{}\"/>
-  </keyframe>
-</mujoco>",
-        speeds.join(" ")
+</mujoco>"
     )
 }
 

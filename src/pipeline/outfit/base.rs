@@ -6,7 +6,7 @@ use crate::assembly::{Assembly, Fixture, PlacedGear, Pocket, Post, Stance};
 use crate::geometry::{self, Point, Vector};
 use crate::policy;
 use crate::solid::hardware::{Bearing, Clearance, Screw};
-use crate::solid::{circle, pin_radius};
+use crate::solid::{circle, hole, pin_radius};
 use std::f64::consts::TAU;
 
 /// Play a side of a nut or head in its trap, mm: it drops in and does not turn.
@@ -95,7 +95,7 @@ fn standing(assembly: &Assembly, outfit: &Outfit) -> Result<Vec<Fixture>, Outfit
     }
     plate.outline = rounded_box(low, high, corner);
     if let Some(radius) = mount {
-        let round = circle(radius, policy::BORE_CHORD_TOLERANCE);
+        let round = hole(radius, policy::BORE_CHORD_TOLERANCE);
         let inner = Vector::new(corner, corner);
         let (l, h) = (low + inner, high - inner);
         let corners = [l, Point::new(h.x, l.y), h, Point::new(l.x, h.y)];
@@ -223,13 +223,13 @@ impl Seat {
     fn cut(&self, plate: &mut Fixture, placed: &PlacedGear, more: &mut Vec<Fixture>) -> f64 {
         let round = |radius| circle(radius, policy::BORE_CHORD_TOLERANCE);
         let (number, thickness) = (plate.holes.len(), plate.thickness);
-        plate.holes.push(moved(&round(self.hole), placed.axis));
-        let hole = Some(number);
+        plate.holes.push(moved(&hole(self.hole, policy::BORE_CHORD_TOLERANCE), placed.axis));
+        let number_of_hole = Some(number);
         if let Some(bearing) = self.bearing {
             let radius = 0.5 * bearing.outside + SEAT_PLAY;
             plate.pockets.push(Pocket {
-                ring: moved(&round(radius), placed.axis),
-                hole,
+                ring: moved(&hole(radius, policy::BORE_CHORD_TOLERANCE), placed.axis),
+                hole: number_of_hole,
                 from: thickness - bearing.width,
                 to: thickness,
             });
@@ -239,13 +239,13 @@ impl Seat {
         let shoulder = self.hole + policy::SHOULDER_WIDTH;
         plate.posts.push(Post {
             ring: moved(&round(shoulder), placed.axis),
-            hole,
+            hole: number_of_hole,
             from: thickness,
             to: thickness + policy::SHOULDER_HEIGHT + placed.level,
         });
         let Some((ring, depth)) = &self.trap else { return shoulder };
         let ring = moved(ring, placed.axis);
-        plate.pockets.push(Pocket { ring, hole, from: 0.0, to: *depth });
+        plate.pockets.push(Pocket { ring, hole: number_of_hole, from: 0.0, to: *depth });
         shoulder
             .max(self.trap.iter().flat_map(|t| &t.0).map(|p| p.coords.norm()).fold(0.0, f64::max))
     }
@@ -259,7 +259,7 @@ fn spacer(placed: &PlacedGear, bearing: Bearing) -> Fixture {
     Fixture {
         name: format!("{}-spacer", placed.gear.name),
         outline: circle((inner + SPACER_WALL).min(race), fine),
-        holes: vec![circle(inner + SPACER_PLAY, fine)],
+        holes: vec![hole(inner + SPACER_PLAY, fine)],
         thickness: policy::SHOULDER_HEIGHT + placed.level,
         posts: Vec::new(),
         pockets: Vec::new(),
@@ -299,7 +299,7 @@ fn lego(assembly: &Assembly, outfit: &Outfit) -> Result<Fixture, OutfitError> {
     }
     let (thickness, gap) = (thickness(outfit, 0.0)?, policy::SHOULDER_HEIGHT);
     let play = outfit.play().unwrap_or(policy::LEGO_AXLE_PLAY);
-    let round = circle(0.5 * policy::LEGO_AXLE_SPAN + play, policy::BORE_CHORD_TOLERANCE);
+    let round = hole(0.5 * policy::LEGO_AXLE_SPAN + play, policy::BORE_CHORD_TOLERANCE);
     let (low, high) = bounds(&assembly.gears);
     let columns = ((high.x - low.x) / stud).round() as i32;
     let rows = ((high.y - low.y) / stud).round() as i32;

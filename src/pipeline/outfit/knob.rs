@@ -5,7 +5,7 @@ use crate::assembly::{Fixture, Gear, Opening, Post, Stance};
 use crate::geometry::{self, Point};
 use crate::outline::simplify;
 use crate::policy;
-use crate::solid::circle;
+use crate::solid::{circle, hole};
 
 /// Radii of the grip that are tried, mm: as two fingers like it, and less where there is little room.
 const GRIPS: [f64; 3] = [6.0, 5.0, 4.0];
@@ -40,7 +40,8 @@ pub(super) fn add(
     let around = |radius| circle(radius, fine).iter().map(|p| p + at.coords).collect::<Vec<_>>();
     let peg = PEG_SHARE * grip;
     taken.rings.push(around(grip));
-    gear.fittings.openings.push(Opening { name: "knob".to_owned(), ring: around(peg + PEG_PLAY) });
+    let opening = hole(peg + PEG_PLAY, fine).iter().map(|p| p + at.coords).collect();
+    gear.fittings.openings.push(Opening { name: "knob".to_owned(), ring: opening });
     Ok(Fixture {
         name: "knob".to_owned(),
         outline: circle(grip, fine),

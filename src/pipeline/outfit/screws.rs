@@ -4,7 +4,7 @@ use super::{OutfitError, Screws, Taken, clear_radius};
 use crate::assembly::{Gear, Opening};
 use crate::geometry::Point;
 use crate::policy;
-use crate::solid::circle;
+use crate::solid::hole;
 use std::f64::consts::{PI, TAU};
 
 pub(super) fn add(gear: &mut Gear, choice: &Screws, taken: &mut Taken) -> Result<(), OutfitError> {
@@ -33,7 +33,7 @@ pub(super) fn add(gear: &mut Gear, choice: &Screws, taken: &mut Taken) -> Result
         // Off the x axis, where the phase mark is.
         let angle = TAU * (f64::from(i) + 0.5) / f64::from(choice.count);
         let center = Point::new(place * angle.cos(), place * angle.sin());
-        let round = circle(radius, policy::BORE_CHORD_TOLERANCE);
+        let round = hole(radius, policy::BORE_CHORD_TOLERANCE);
         let ring: Vec<Point> = round.iter().map(|p| center + p.coords).collect();
         taken.rings.push(ring.clone());
         gear.fittings.openings.push(Opening { name: format!("screw {}", i + 1), ring });

@@ -5,7 +5,7 @@ use super::base::moved;
 use crate::assembly::{Fixture, PlacedGear, Pocket, Post, Stance};
 use crate::geometry::{self, Point};
 use crate::policy;
-use crate::solid::circle;
+use crate::solid::{circle, hole};
 
 /// Radius of the holes that feet are pushed into, mm.
 pub(super) const FOOT_HOLE: f64 = 2.5;
@@ -79,7 +79,7 @@ pub(super) fn cap(placed: &PlacedGear, radius: f64, top: f64) -> Fixture {
         thickness: height,
         posts: Vec::new(),
         pockets: vec![Pocket {
-            ring: circle(radius + PUSH_PLAY, fine),
+            ring: hole(radius + PUSH_PLAY, fine),
             hole: None,
             from: CAP_ROOF,
             to: height,
