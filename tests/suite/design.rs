@@ -14,7 +14,7 @@ const POSES: usize = 64;
 const OVERLAP: f64 = 1e-4;
 
 /// Everything a run writes.
-const FILES: [&str; 16] = [
+const FILES: [&str; 18] = [
     "design.json",
     "driver.dxf",
     "driver.stl",
@@ -24,9 +24,11 @@ const FILES: [&str; 16] = [
     "pair.3mf",
     "pair.dxf",
     "pair.glb",
+    "pair.mtl",
     "pair.obj",
     "pair.step",
     "pair.svg",
+    "plate.3mf",
     "report.html",
     "scene.xml",
     "simulation-motor.csv",
