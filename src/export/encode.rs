@@ -86,7 +86,7 @@ impl EncodeError {
     }
 }
 
-/// A file format. It makes files in memory; [`write`] puts them into a folder.
+/// A file format. It makes files in memory; [`write()`] puts them into a folder.
 pub trait Encode {
     /// The files of this design, in the order in which they are written.
     ///

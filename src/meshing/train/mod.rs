@@ -76,7 +76,7 @@ pub struct TrainStep {
     pub driver_angle: f64,
     /// World rotation of every gear less its designed one, radians, along the sense in which it turns.
     pub errors: Vec<f64>,
-    /// Torque on the driver, averaged over [`policy::TORQUE_WINDOW_TEETH`], N mm.
+    /// Torque on the driver, averaged over [`crate::policy::TORQUE_WINDOW_TEETH`], N mm.
     pub torque: f64,
     /// What the loads ask of the driver by the composed transmission function, averaged likewise, N mm.
     pub ideal_torque: f64,
