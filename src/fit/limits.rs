@@ -236,49 +236,27 @@ impl Task<'_> {
                     * policy::LIMIT_TIGHTENING;
             }
         }
-        self.eased_until_kept(blend, &law, detailed)
+        self.diffuse_until_kept(&law, detailed)
     }
 
-    /// The least flattening or even diffusion of y that keeps the lean, drawn to the mean for the torque; of the two that which
-    /// changes the law less. Neither ever raises the lean, and both end in circles. Flattening, y drawn to one value everywhere, is the
-    /// gentler one where the lean is only a little over.
-    fn eased_until_kept(
+    /// The least even diffusion of y that keeps the lean, drawn to the mean for the torque. Even diffusion never
+    /// raises the lean and ends in circles.
+    fn diffuse_until_kept(
         &self,
-        blend: &[f64],
         law: &[f64],
         detailed: bool,
     ) -> Result<(Vec<f64>, Extremes), LimitError> {
         let n = law.len();
-        let y = log_radius(law);
-        // From nothing to the whole turn, evenly in the logarithm of the reach.
-        let most = (n as f64).ln();
-        let diffuse = |amount: f64| {
-            let reach = (most * amount).exp_m1();
-            diffused(&diffused(&y, reach * reach), reach * reach)
-        };
-        let flatten = |amount: f64| y.iter().map(|v| (1.0 - amount) * v).collect();
-        let eased =
-            [self.least_easing(n, detailed, diffuse)?, self.least_easing(n, detailed, flatten)?];
-        let change =
-            |law: &[f64]| -> f64 { law.iter().zip(blend).map(|(a, b)| (a - b) * (a - b)).sum() };
-        let [diffused, flattened] = eased;
-        Ok(if change(&flattened.0) < change(&diffused.0) { flattened } else { diffused })
-    }
-
-    /// The law that keeps the bounds with the least amount, 0 to 1, of an easing of y.
-    fn least_easing(
-        &self,
-        n: usize,
-        detailed: bool,
-        ease: impl Fn(f64) -> Vec<f64>,
-    ) -> Result<(Vec<f64>, Extremes), LimitError> {
         let even = vec![1.0 / self.ratio; n];
         let circles = Transmission::from_derivative(&even, self.folds.0, self.folds.1)?;
         let mut best = (even, Extremes::of(circles, detailed));
-        let (mut low, mut high) = (0.0, 1.0);
+        let y = log_radius(law);
+        let (mut low, mut high) = (0.0, (n as f64).ln());
         for _ in 0..policy::LIMIT_BISECTIONS {
-            let middle = 0.5 * (low + high);
-            let mut drawn = self.law_of(&ease(middle));
+            let middle: f64 = 0.5 * (low + high);
+            // From nothing to the whole turn, evenly in the logarithm of the reach.
+            let reach = middle.exp_m1();
+            let mut drawn = self.law_of(&diffused(&diffused(&y, reach * reach), reach * reach));
             if let (Some(most), Some(found)) =
                 (self.limits.max_derivative, self.extremes(&drawn, false))
             {

@@ -199,7 +199,7 @@ pub enum FitError {
 pub struct Fit {
     /// The pair's motion, limits kept. At driver angle 0 the driver's drawing stands upright.
     pub transmission: Transmission,
-    /// Eq. 14 before limits, or the refined law: psi' at the driver angles of [`Transmission::samples`].
+    /// Eq. 14 before limits: psi' at the driver angles of [`Transmission::samples`].
     pub raw: Vec<f64>,
     /// E and its parts.
     pub objective: Objective,

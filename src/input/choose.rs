@@ -87,6 +87,9 @@ pub(super) fn count(contours: &Contours, source: Source<'_>) -> usize {
 fn told(list: Vec<Contour>, source: Source<'_>, unit: Unit) -> Result<Chosen, InputError> {
     let mut list = list.into_iter();
     let first = list.next().ok_or(InputError::NoContour { path: source.path() })?;
+    if first.points.len() < 2 {
+        return Err(InputError::NoContour { path: source.path() });
+    }
     if !first.closed {
         return Err(open_at(&[&first], &[], source, unit));
     }

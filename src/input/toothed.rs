@@ -55,8 +55,11 @@ pub fn load_gears(sources: Pair<&str>, join: Option<f64>) -> Result<Pair<Toothed
         && !Path::new(source.path).is_dir()
     {
         let bytes = read_file_of_gear(source.path)?;
-        let both = contours(&bytes, source, None, join).map_or(1, |c| choose::count(&c, source));
-        if both == 2 {
+        let holds_two = |side| {
+            contours(&bytes, source, side, join).is_ok_and(|c| choose::count(&c, source) == 2)
+        };
+        // Where names in the file tell which gear is which, they choose.
+        if holds_two(None) && holds_two(Some(Side::Driver)) {
             return Pair::new((), ()).try_map(|side, ()| {
                 let part = if side == Side::Driver { "1" } else { "2" };
                 let mut gear = read(&bytes, Source { part: Some(part), ..source }, side, join)?;

@@ -94,7 +94,7 @@ fn files_that_are_missing_or_no_drawings() {
     bench.refuses("no/such/file.svg", &["no such file", "check the path"]);
     bench.refuses("haert", &["did you mean `heart`"]);
     bench.refuses(&bench.file("a.png", "this is no image"), &["; "]);
-    bench.refuses(&bench.file("a.docx", "neither is this"), &["use SVG, PNG"]);
+    bench.refuses(&bench.file("a.docx", "neither is this"), &["use SVG, DXF"]);
     bench.refuses(&bench.file("cut.png", &picture(40, 40, |_, _| 0)[..60]), &["; "]);
     bench.refuses(&bench.file("empty.png", ""), &["empty"]);
     let folder = bench.top.path().to_string_lossy().into_owned();
@@ -107,11 +107,10 @@ fn svg_drawings_without_a_shape() {
     for (name, body, word) in [
         ("empty.svg", "", "draws nothing"),
         ("text.svg", "<text x='9' y='50'>gear</text>", "only text"),
-        ("open.svg", "<path d='M10 10H90V90'/>", "open"),
-        ("line.svg", "<path d='M10 10H90Z' fill='none' stroke='black'/>", "filled"),
+        ("open.svg", "<path d='M10 10H90V90' fill='none' stroke='black'/>", "open by"),
+        ("line.svg", "<path d='M10 10H90Z' fill='none' stroke='black'/>", "; "),
         ("flat.svg", "<path d='M10 10L90 90L50 50Z'/>", "; "),
         ("nan.svg", "<path d='M10 NaN L90 90 L50 10Z'/>", "cannot be read; correct"),
-        ("polyline.svg", "<polyline points='10,10 90,10 50,80'/>", "a polyline a polygon"),
     ] {
         bench.refuses(&bench.file(name, svg(body)), &[word]);
     }

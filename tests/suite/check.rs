@@ -328,13 +328,17 @@ fn drawings_say_the_same_as_points() {
 }
 
 #[test]
+fn gears_that_never_touch_or_overlap_from_the_start_are_judged() {
+    fails(&[DRIVER, FOLLOWER, "--no-simulate", "-L", "50"], &["overlap"]);
+    fails(&[DRIVER, FOLLOWER, "--no-simulate", "-L", "77"], &["no-contact"]);
+}
+
+#[test]
 fn what_is_no_pair_is_refused() {
     let bench = Bench::new();
     let with = |extra: &[&str], words: &[&str]| {
         refuses(&[&[DRIVER, FOLLOWER, "--no-simulate"], extra].concat(), words);
     };
-    with(&["-L", "50"], &["overlap from the start", "--center-distance"]);
-    with(&["-L", "77"], &["never touch", "closer"]);
     with(&[], &["--center-distance"]);
     with(&["-L", "72", "--driver-axis", "40,0"], &["outside the gear", "driver"]);
     with(&["-L", "72", "--follower-axis", "0,90"], &["outside the gear", "follower"]);
@@ -375,7 +379,7 @@ fn outlines_that_are_none_are_refused() {
         .map(|a| [25.0 * a.cos(), 25.0 * a.sin()])
         .collect();
     driver(&bench.file("disc.csv", csv(&circle)), &["no regular teeth", "toothed"]);
-    let open = r#"<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0L9 0L9 9"/></svg>"#;
+    let open = r#"<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0L9 0L9 9" fill="none" stroke="black"/></svg>"#;
     driver(&bench.file("open.svg", open), &["open by"]);
 }
 

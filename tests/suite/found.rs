@@ -34,7 +34,7 @@ fn refused(cases: &[(&str, &str)], read: impl Fn(&str, &[u8]) -> Result<(), Stri
 
 #[test]
 fn control_characters_of_a_drawing_do_not_reach_the_terminal() {
-    let cases = [("points-1.csv", "line 3 (`4 [31m,3`)"), ("points-2.csv", "line 3 (`1 1`)")];
+    let cases = [("points-1.csv", "line 3 (`4 [31m,3`)"), ("points-2.csv", "not plain text")];
     refused(&cases, |name, bytes| {
         let made = shape_from_bytes(bytes, name, &LoadOptions::default());
         made.map(drop).map_err(|e| e.to_string())
@@ -66,7 +66,7 @@ fn an_outline_that_is_accepted_is_accepted_again() {
 #[test]
 fn finished_gears_far_away_or_of_absurd_numbers_are_refused() {
     let cases = [
-        ("dxf-1.dxf", "no DXF that can be read"),
+        ("dxf-1.dxf", "is a curve"),
         // Cells of the grid in which ends of lines are joined were counted beyond the integers.
         ("dxf-2.dxf", "beyond 1e9"),
         // The work on a spline grows with the square of its degree.

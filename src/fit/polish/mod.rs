@@ -272,8 +272,7 @@ fn delivered(
     let objective = judged(problem, &driver, &follower, &limited)?;
     Ok(Fit {
         transmission: centrodes.transmission,
-        // Bounds that hold already need not be put on again, with the rounding that comes with them.
-        raw: law,
+        raw,
         objective,
         limited,
         driver,

@@ -117,7 +117,7 @@ fn of_spline(curve: &Spline) -> Option<(Vec<Point>, bool)> {
     let Spline { degree, knots, control, weights, fit, closed } = curve;
     let per_span = policy::SPLINE_CHORDS;
     let mut made = spline::points(*degree, knots, control, weights, per_span);
-    if made.is_none() && control.len() > 1 && control.len() >= fit.len() {
+    if made.is_none() && knots.is_empty() && control.len() > 1 {
         // Control points whose knots were left out.
         let degree = (*degree).clamp(1, 3).min(control.len() - 1);
         let (knots, points) = spline::even(degree, control, *closed);

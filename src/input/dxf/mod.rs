@@ -60,6 +60,11 @@ pub enum DxfError {
         /// Most curves that are read.
         limit: usize,
     },
+    /// A spline that no program draws.
+    #[error(
+        "it holds a spline whose knots, weights and points do not belong together; turn it into a polyline"
+    )]
+    Spline,
     /// Nothing visible is a curve.
     #[error(
         "nothing visible in its model space is a curve{found}; draw the outline with lines, arcs, polylines or splines"
@@ -345,12 +350,11 @@ impl Drawing {
             };
             let dashed =
                 self.dashed.contains(line_type) || DASHED.iter().any(|d| line_type.starts_with(d));
-            if let Some(piece) = piece(&entity.curve, &place.map) {
-                if pieces.len() >= CURVES {
-                    return Err(too_many);
-                }
-                pieces.push((piece, layer.to_owned(), dashed));
+            if pieces.len() >= CURVES {
+                return Err(too_many);
             }
+            let piece = piece(&entity.curve, &place.map).ok_or(DxfError::Spline)?;
+            pieces.push((piece, layer.to_owned(), dashed));
         }
         Ok(())
     }

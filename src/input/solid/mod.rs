@@ -93,7 +93,8 @@ struct Cut {
 
 /// The contours of the cut through the teeth; where there are none, at half the height.
 ///
-/// A solid without teeth along z is looked at along y and x, as modelling programs save solids that stand.
+/// The direction in which the solid is clearly thin is looked along first, then z, y and x, as modelling programs save solids
+/// that stand.
 ///
 /// # Errors
 /// See [`SolidFileError`].
@@ -104,7 +105,11 @@ pub(super) fn contours(mesh: &Mesh, source: Source<'_>) -> Result<Contours, Soli
     }
     let number = source.part.and_then(|p| p.parse::<usize>().ok());
     let size = size(mesh);
-    for axis in ['z', 'y', 'x'] {
+    let thin = |i: usize| (0..3).all(|j| j == i || size[i] < THIN * size[j]);
+    let thin = ['x', 'y', 'z'].into_iter().enumerate().find(|(i, _)| thin(*i)).map(|(_, a)| a);
+    // Cut across its axis a wheel shows its rim, whose teeth are no gear's.
+    let others = ['z', 'y', 'x'].into_iter().filter(|a| Some(*a) != thin);
+    for axis in thin.into_iter().chain(others) {
         let turned = turned(mesh, axis);
         let mut cuts = toothed(&turned)?;
         if cuts.is_empty() {
@@ -151,9 +156,7 @@ pub(super) fn contours(mesh: &Mesh, source: Source<'_>) -> Result<Contours, Soli
         return Ok(Contours { list: cut.list, notes, part_used, ..Contours::default() });
     }
     // No teeth anywhere: along the direction in which it is clearly thin, else along z.
-    let thin = |i: usize| (0..3).all(|j| j == i || size[i] < THIN * size[j]);
-    let axis =
-        ['x', 'y', 'z'].into_iter().enumerate().find(|(i, _)| thin(*i)).map_or('z', |(_, a)| a);
+    let axis = thin.unwrap_or('z');
     let turned = turned(mesh, axis);
     let (low, high) = heights(&turned).ok_or(SolidFileError::Flat)?;
     let level = low + (0.5 + policy::SLICE_OFFSET) * (high - low);

@@ -173,6 +173,7 @@ pub(super) fn columns(text: &[u8], limit: usize) -> Result<Vec<Point>, PointsErr
     }
     if rows.iter().all(|r| is_torn(&r.text))
         && separator.is_none()
+        && named.is_none()
         && let Some(first) = rows.first()
     {
         return Err(PointsError::DecimalCommas { line: first.line, text: first.text.clone() });
