@@ -18,12 +18,13 @@ import time
 import numpy as np
 from OCP.Bnd import Bnd_Box
 from OCP.BRep import BRep_Tool
-from OCP.BRepAdaptor import BRepAdaptor_Curve
+from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepFilletAPI import BRepFilletAPI_MakeChamfer
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
+from OCP.GeomAbs import GeomAbs_Plane
 from OCP.IFSelect import IFSelect_RetDone
 from OCP.Quantity import Quantity_Color
 from OCP.STEPCAFControl import STEPCAFControl_Reader
@@ -32,12 +33,13 @@ from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label
 from OCP.collections import Sequence_TDF_Label as LabelSequence
 from OCP.TDocStd import TDocStd_Document
-from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
+from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_REVERSED, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
 VOLUME = 1e-4
+QUADRATURE = 1e-9
 CHAMFER = 0.3
 FACES = 12
 BYTES_PER_TOOTH = 3e6 / 64  # 3 MB for a pair of 32 teeth each
@@ -56,6 +58,29 @@ def hole_area(ring):
     if n >= 12 and np.ptp(radii) < 1e-9 * radii[0]:
         return math.pi * (radii[0] * math.cos(math.pi / n)) ** 2
     return area(ring)
+
+
+def volume(shape):
+    """Volume between level faces, by the divergence of (0, 0, z): upright walls give nothing.
+
+    OpenCascade's own volume integrates over the walls with few points: up to 2e-4 off on gears whose
+    curves have many spans.
+    """
+    total = 0.0
+    for found in explore(shape, TopAbs_FACE):
+        face = TopoDS.Face_s(found) if hasattr(TopoDS, "Face_s") else TopoDS.Face(found)
+        surface = BRepAdaptor_Surface(face)
+        if surface.GetType() != GeomAbs_Plane:
+            continue
+        plane = surface.Plane()
+        up = plane.Axis().Direction().Z() * (1 if plane.Direct() else -1)
+        if abs(up) < 0.5:
+            continue
+        properties = GProp_GProps()
+        BRepGProp.SurfaceProperties_s(face, properties, QUADRATURE)
+        side = -1 if face.Orientation() == TopAbs_REVERSED else 1
+        total += side * up * plane.Location().Z() * properties.Mass()
+    return total
 
 
 def sharp_top_edges(shape, top):
@@ -146,15 +171,13 @@ def main(folder, chamfer=False):
         if gear not in ("driver", "follower"):
             plate = next((f for f in record.get("fixtures", []) if f["name"] == gear), None)
             shape = XCAFDoc_ShapeTool.GetShape_s(referred)
-            properties = GProp_GProps()
-            BRepGProp.VolumeProperties_s(shape, properties)
             if plate is None:
                 faults.append(f"a part is named {gear!r}")
             elif not BRepCheck_Analyzer(shape).IsValid() or len(list(explore(shape, TopAbs_SOLID))) != 1:
                 faults.append(f"{gear}: not one valid solid")
             # Round parts are drawn as polygons and written as circles: 5e-3 of a small one.
-            elif not abs(properties.Mass() / plate_volume(plate) - 1) < 1e-2:
-                faults.append(f"{gear}: volume {properties.Mass():.1f} instead of {plate_volume(plate):.1f}")
+            elif not abs(volume(shape) / plate_volume(plate) - 1) < 1e-2:
+                faults.append(f"{gear}: volume {volume(shape):.1f} instead of {plate_volume(plate):.1f}")
             continue
         data = record[gear]
         shape = XCAFDoc_ShapeTool.GetShape_s(referred)
@@ -165,8 +188,6 @@ def main(folder, chamfer=False):
         for shell in explore(shape, TopAbs_SHELL):
             if not BRep_Tool.IsClosed_s(shell):
                 faults.append(f"{gear}: open shell")
-        properties = GProp_GProps()
-        BRepGProp.VolumeProperties_s(shape, properties)
         bore = hole_area(data["bore"]) if data["bore"] else 0.0
         fittings = data.get("fittings") or {}
         holes = sum(hole_area(opening["ring"]) for opening in fittings.get("openings", []))
@@ -178,7 +199,7 @@ def main(folder, chamfer=False):
         for mark in marks:
             outer, *inner = mark["face"]
             wanted += (area(outer) - sum(map(area, inner))) * mark["height"]
-        off = properties.Mass() / wanted - 1
+        off = volume(shape) / wanted - 1
         if not abs(off) < VOLUME:
             faults.append(f"{gear}: volume off by {off:.1e}")
         lettered = sum(len(ring) for mark in marks for ring in mark["face"])
