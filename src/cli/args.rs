@@ -9,6 +9,7 @@ use centrode::gallery::Shard;
 use centrode::geometry::Point;
 use centrode::law::Preset;
 use centrode::policy;
+use centrode::schema::{default_length, default_text};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 
 use super::outfit::OutfitArgs;
@@ -260,16 +261,16 @@ pub(crate) struct CheckArgs {
     #[arg(long, conflicts_with = "no_simulate")]
     pub(crate) both: bool,
     /// Torque that holds the follower back, N mm
-    #[arg(long, default_value_t = policy::DEFAULT_LOAD, value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("load"), value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) load: f64,
     /// Speed of the driver, turns a minute
-    #[arg(long, default_value_t = policy::DEFAULT_RPM, value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("rpm"), value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) rpm: f64,
     /// Friction between the flanks, 0 to 2; torque is judged without
     #[arg(long, default_value_t = 0.0, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) friction: f64,
     /// Thickness of the gears
-    #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_length("thickness"), value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) thickness: f64,
     /// Print the verdict as JSON on standard output
     #[arg(long)]
@@ -345,13 +346,13 @@ pub(crate) struct MateArgs {
     #[command(flatten)]
     pub(crate) reading: ShapeArgs,
     /// Weight of the driver torque against likeness (omega)
-    #[arg(long, default_value = "0.2", value_name = "OMEGA", value_parser = units::zero_or_more, allow_hyphen_values = true, help_heading = "Fitting")]
+    #[arg(long, default_value = default_text("torque-weight"), value_name = "OMEGA", value_parser = units::zero_or_more, allow_hyphen_values = true, help_heading = "Fitting")]
     pub(crate) torque_weight: f64,
     /// Largest driver torque allowed, in multiples of the mate's [default: no limit]
     #[arg(long, value_name = "FACTOR", value_parser = units::positive, allow_hyphen_values = true, help_heading = "Fitting")]
     pub(crate) max_torque: Option<f64>,
     /// Steepest lean of the pitch curve against its radius, degrees
-    #[arg(long, default_value = "55", value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true, help_heading = "Fitting")]
+    #[arg(long, default_value = default_text("max-lean"), value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true, help_heading = "Fitting")]
     pub(crate) max_lean: f64,
     #[command(flatten)]
     pub(crate) pair: PairArgs,
@@ -407,13 +408,13 @@ pub(crate) struct DesignArgs {
 #[command(next_help_heading = "Simulation")]
 pub(crate) struct RunArgs {
     /// Torque that holds the follower back, N mm
-    #[arg(long, default_value_t = policy::DEFAULT_LOAD, value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("load"), value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) load: f64,
     /// Speed of the driver, turns a minute
-    #[arg(long, default_value_t = policy::DEFAULT_RPM, value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("rpm"), value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) rpm: f64,
     /// Friction between the flanks in the run by motor, 0 to 2; the measuring run has none
-    #[arg(long, default_value_t = policy::DEFAULT_FRICTION, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("friction"), value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) friction: f64,
     /// What the gears are made of: pla, petg, abs, nylon, pom, resin, plywood, acrylic, aluminium, steel
     #[arg(long, default_value = "pla", value_name = "NAME", value_parser = units::material, conflicts_with = "density")]
@@ -468,16 +469,16 @@ pub(crate) struct FitArgs {
     #[arg(long, value_enum, default_value_t = SearchArg::Global)]
     pub(crate) search: SearchArg,
     /// Weight of the driver torque against likeness (omega)
-    #[arg(long, default_value = "0.2", value_name = "OMEGA", value_parser = units::zero_or_more, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("torque-weight"), value_name = "OMEGA", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) torque_weight: f64,
     /// Whose likeness matters more: 1 keeps the driver, 0 the follower (t)
-    #[arg(long, default_value = "0.5", value_name = "T", value_parser = units::fraction, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("balance"), value_name = "T", value_parser = units::fraction, allow_hyphen_values = true)]
     pub(crate) balance: f64,
     /// Largest driver torque allowed, in multiples of the follower's [default: no limit]
     #[arg(long, value_name = "FACTOR", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) max_torque: Option<f64>,
     /// Steepest lean of the pitch curve against its radius, degrees
-    #[arg(long, default_value = "55", value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("max-lean"), value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     pub(crate) max_lean: f64,
     /// Axis of the driver, in the coordinates of its drawing, y upwards [default: searched]
     #[arg(long, value_name = "X,Y", value_parser = units::point, allow_hyphen_values = true)]
@@ -498,7 +499,7 @@ pub(crate) struct FitArgs {
     #[arg(long, overrides_with = "refine")]
     pub(crate) no_refine: bool,
     /// How many starts the refinement makes; each step takes about four times as long
-    #[arg(long, default_value = "2", value_name = "1..5", value_parser = clap::value_parser!(u8).range(1..=5))]
+    #[arg(long, default_value = default_text("effort"), value_name = "1..5", value_parser = clap::value_parser!(u8).range(1..=5))]
     pub(crate) effort: u8,
     /// Shapes to turn over first; auto turns the follower over where that makes a clearly better pair
     #[arg(long, value_enum, default_value_t = MirrorArg::None)]
@@ -510,7 +511,7 @@ pub(crate) struct FitArgs {
     #[arg(long, value_name = "I", value_parser = clap::value_parser!(u8).range(1..=12), conflicts_with = "symmetric")]
     pub(crate) choose: Option<u8>,
     /// Weight in E of the area that cannot be seen from the axes
-    #[arg(long, default_value = "2", value_name = "WEIGHT", value_parser = units::zero_or_more, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("star-weight"), value_name = "WEIGHT", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) star_weight: f64,
 }
 
@@ -528,16 +529,16 @@ pub(crate) struct TeethArgs {
     #[arg(long, value_enum, default_value_t = StyleArg::Involute)]
     pub(crate) teeth_style: StyleArg,
     /// Pressure angle, degrees; steeper ones are used where the curve bends fast
-    #[arg(long, default_value = "20", value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("pressure-angle"), value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
     pub(crate) pressure_angle: f64,
     /// Height of a tooth above the pitch curve, in modules
-    #[arg(long, default_value = "1", value_name = "MODULES", value_parser = units::positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("addendum"), value_name = "MODULES", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) addendum: f64,
     /// Gap left on every face of each gear
-    #[arg(long, default_value = "0.1mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_length("clearance"), value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
     pub(crate) clearance: f64,
     /// Backlash along the pitch curve: thins the flanks only
-    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_length("backlash"), value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
     pub(crate) backlash: f64,
     /// Extra depth of the roots below a mating tip [default: 0.25 module]
     #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
@@ -561,13 +562,13 @@ pub(crate) struct TeethArgs {
 #[command(next_help_heading = "Size")]
 pub(crate) struct SizeArgs {
     /// Distance between the axes, or lego:N for N studs of 8 mm
-    #[arg(long, default_value = "80mm", value_name = "LENGTH", value_parser = units::center_distance, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_length("center-distance"), value_name = "LENGTH", value_parser = units::center_distance, allow_hyphen_values = true)]
     pub(crate) center_distance: f64,
     /// Largest extent of the pair, instead of the distance between the axes
     #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, conflicts_with = "center_distance", allow_hyphen_values = true)]
     pub(crate) size: Option<f64>,
     /// Thickness of the gears
-    #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_length("thickness"), value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) thickness: f64,
 }
 

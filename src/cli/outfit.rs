@@ -2,13 +2,15 @@
 
 use centrode::pipeline::BoreChoice;
 use centrode::pipeline::outfit::{
-    Base, HubChoice, Label, LabelPlace, LabelText, Lightening, Mount, Outfit, Screws,
+    Base, HubChoice, Label, LabelPlace, Lightening, Mount, Outfit, Screws,
 };
 use centrode::policy;
-use centrode::solid::{Bore, BoreName, Fit};
+use centrode::schema::words;
+use centrode::schema::{default_length, default_text};
+use centrode::solid::Fit;
 use clap::{Args, ValueEnum};
 
-use super::units::{self, BoreArg};
+use super::units;
 
 /// What the gears carry and stand on.
 #[derive(Debug, Args)]
@@ -16,7 +18,7 @@ use super::units::{self, BoreArg};
 pub(crate) struct OutfitArgs {
     /// Hole for what goes through: a screw (M2 to M12), a bearing (608, 625, ...), a motor (nema17); or by its sizes: round:5 (or 5mm), d:5, d:5x4.5, hex:6, square:4, keyway:8, keyway:8x2x1, lego, none [default: 5mm, or less where there is no room]
     #[arg(long, value_name = "BORE", value_parser = units::bore, allow_hyphen_values = true)]
-    pub(crate) bore: Option<BoreArg>,
+    pub(crate) bore: Option<BoreChoice>,
     /// Play on each side of bores and pins: tight, slide, loose, or a length; for screws also fine, medium, coarse (ISO 273) [default: none; fine for screws, 0.05mm for bearings and motors, 0.1mm for lego]
     #[arg(long, value_name = "FIT", value_parser = units::fit, allow_hyphen_values = true)]
     pub(crate) fit: Option<Fit>,
@@ -39,7 +41,7 @@ pub(crate) struct OutfitArgs {
     #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, requires = "screws", allow_hyphen_values = true)]
     pub(crate) screw_circle: Option<f64>,
     /// Holes that save material and leave a rim and spokes: their number, or auto
-    #[arg(long, value_name = "N", value_parser = lightening, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = units::lightening, allow_hyphen_values = true)]
     pub(crate) lightening: Option<Lightening>,
     /// Raised letters: the shapes' names, or --emboss=TEXT, or --emboss=DRIVER,FOLLOWER
     #[arg(long, value_name = "TEXT", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "engrave")]
@@ -51,16 +53,16 @@ pub(crate) struct OutfitArgs {
     #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) letter_height: Option<f64>,
     /// Where the letters go: near the axis, or above, below, left or right of it
-    #[arg(long, default_value = "axis", value_name = "PLACE", value_parser = units::label_place)]
+    #[arg(long, default_value = default_text("letters-at"), value_name = "PLACE", value_parser = units::label_place)]
     pub(crate) letters_at: LabelPlace,
     /// Arrowheads 0.4 mm deep that meet when the gears are put together right; auto: with letters or a base
     #[arg(long, value_enum, default_value_t = MarkArg::Auto)]
     pub(crate) phase_mark: MarkArg,
     /// Bevel of the bottom edges of teeth and bore, against the elephant's foot of a first layer
-    #[arg(long, default_value = "0mm", value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_length("chamfer"), value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
     pub(crate) chamfer: f64,
     /// Base plate, by what the gears turn on: pins; a screw such as M5 (nut:M5 with its nut or head sunk in, insert:M5 in a threaded insert); a ball bearing such as 608; lego for cross axles; or none
-    #[arg(long, default_value = "none", value_name = "BASE", value_parser = units::base)]
+    #[arg(long, default_value = default_text("base"), value_name = "BASE", value_parser = units::base)]
     pub(crate) base: Base,
     /// Thickness of the base plate [default: 4mm, or as much as its screws, inserts or bearings need]
     #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
@@ -78,7 +80,7 @@ pub(crate) struct OutfitArgs {
     #[arg(long)]
     pub(crate) knob: bool,
     /// Nozzle of the printer: tips, roots, walls, letters and gaps that it cannot draw are named
-    #[arg(long, default_value = "0.4mm", value_name = "LENGTH", value_parser = units::nozzle, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_length("nozzle"), value_name = "LENGTH", value_parser = units::nozzle, allow_hyphen_values = true)]
     pub(crate) nozzle: f64,
 }
 
@@ -96,21 +98,7 @@ pub(crate) enum MarkArg {
 impl OutfitArgs {
     /// The bore asked for; unless one is, that of what the gears turn on.
     pub(crate) fn bore(&self) -> Option<BoreChoice> {
-        let usual = match self.base {
-            Base::None | Base::Pins => None,
-            Base::Lego => Some(BoreArg::Sized(Bore::Lego { play: policy::LEGO_AXLE_PLAY })),
-            Base::Screw { screw, .. } => Some(BoreArg::Named(BoreName::Screw(screw))),
-            Base::Bearing(bearing) => {
-                // With a fit of the user's own that is added.
-                let shaft = Bore::Round { diameter: bearing.shaft };
-                let play = if self.fit.is_some() { 0.0 } else { policy::SLIDE_FIT };
-                Some(BoreArg::Sized(shaft.with_play(play)))
-            }
-        };
-        Some(match self.bore.or(usual)? {
-            BoreArg::Named(name) => BoreChoice::Named(name),
-            BoreArg::Sized(bore) => BoreChoice::Exactly(bore),
-        })
+        self.bore.or_else(|| self.base.usual_bore(self.fit))
     }
 
     /// As the library takes it.
@@ -118,7 +106,7 @@ impl OutfitArgs {
         let hub = self.hub_diameter.or(self.hub_height).or(self.set_screw);
         let label = |text: &Option<String>, raised| {
             let (height, place) = (self.letter_height, self.letters_at);
-            text.as_deref().map(|text| Label { text: written(text), raised, height, place })
+            text.as_deref().map(|text| Label { text: words::written(text), raised, height, place })
         };
         Outfit {
             fit: self.fit,
@@ -148,25 +136,5 @@ impl OutfitArgs {
             knob: self.knob,
             nozzle: self.nozzle,
         }
-    }
-}
-
-fn written(text: &str) -> LabelText {
-    match text.split_once(',') {
-        _ if text.is_empty() => LabelText::Names,
-        Some((driver, follower)) => {
-            LabelText::Each([driver, follower].map(|t| t.trim().to_owned()).to_vec())
-        }
-        None => LabelText::Same(text.to_owned()),
-    }
-}
-
-fn lightening(text: &str) -> Result<Lightening, String> {
-    match text {
-        "auto" => Ok(Lightening::Auto),
-        "none" => Ok(Lightening::None),
-        _ => text.parse().map(Lightening::Holes).map_err(|_| {
-            format!("'{text}' is not a number of holes; write one such as 5, or auto")
-        }),
     }
 }

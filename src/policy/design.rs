@@ -2,7 +2,7 @@
 
 /// Steepest lean of a pitch curve by default, radians. With a pressure angle of 20 degrees the
 /// force then stays within 75 degrees of the motion; friction binds soon after.
-pub const DESIGN_MAX_LEAN: f64 = 55.0 * std::f64::consts::PI / 180.0;
+pub const DESIGN_MAX_LEAN: f64 = 55.0_f64.to_radians();
 /// Largest curvature of a pitch curve times the module, first choice. At a constant curvature flanks
 /// of 30 degrees hand motion on up to 0.40; a corner that is that sharp over less than a pitch may be sharper,
 /// and what this leaves is found by the contact analysis and repaired.

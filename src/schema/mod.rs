@@ -3,8 +3,11 @@
 mod fittings;
 mod record;
 mod saved;
+mod settings;
 mod train_file;
+pub mod words;
 
-pub use record::{Record, run_record};
+pub use record::{RECORD_VERSION, Record, run_record};
 pub use saved::{RECORD_NAME, SavedDesign, SavedError};
+pub use settings::{default_length, default_text};
 pub use train_file::{TrainFileError, read_train, train_from_toml};

@@ -8,13 +8,17 @@ use crate::diagnose::{Diagnostic, Severity, Verdict};
 use crate::gear::Side;
 use crate::geometry::Point;
 use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
-use crate::pipeline::Design;
+use crate::pipeline::{Design, DesignOptions};
 use crate::strength::Strength;
+
+/// Version of the record. 0, where a record has none: options were spelled otherwise.
+pub const RECORD_VERSION: u32 = 1;
 
 /// The record of one design; field order is the order in the file. Lengths mm, angles radians.
 #[derive(Debug, Serialize)]
 pub struct Record {
     centrode: &'static str,
+    version: u32,
     units: &'static str,
     names: [String; 2],
     ratio: f64,
@@ -36,7 +40,10 @@ pub struct Record {
     law: Option<Law>,
     meshing: Meshing,
     strength: StrengthRecord,
-    settings: Settings,
+    /// What was asked, spelled as the command line spells it.
+    settings: DesignOptions,
+    /// What was used: the number of teeth that was chosen, and the bounds that repairs led to.
+    used: DesignOptions,
 }
 
 #[derive(Debug, Serialize)]
@@ -184,37 +191,6 @@ impl StrengthRecord {
     }
 }
 
-#[derive(Debug, Serialize)]
-struct Settings {
-    ratio: String,
-    search: String,
-    torque_weight: f64,
-    balance: f64,
-    max_torque: Option<f64>,
-    max_lean: f64,
-    refine: bool,
-    effort: u8,
-    choose: Option<usize>,
-    star_weight: f64,
-    teeth_style: String,
-    pressure_angle: f64,
-    addendum: f64,
-    clearance: f64,
-    backlash: f64,
-    root_clearance: Option<f64>,
-    chord_tolerance: f64,
-    bore: String,
-    outfit: String,
-    repair: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    driver_axis: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    follower_axis: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    orientation: Option<f64>,
-    symmetric: bool,
-}
-
 impl Motion {
     /// One whole cycle, or one way of a pair that swings.
     fn new(assembly: &Assembly) -> Self {
@@ -242,6 +218,7 @@ impl Record {
         let center = |i: usize| design.drawings[i].map(|d| d.center_in_input);
         Self {
             centrode: env!("CARGO_PKG_VERSION"),
+            version: RECORD_VERSION,
             units: "mm",
             names: design.names.clone(),
             ratio: design.centrodes.transmission.ratio(),
@@ -297,32 +274,8 @@ impl Record {
                 runs: design.proof.iter().flat_map(|p| p.runs.iter().map(run_record)).collect(),
             },
             strength: StrengthRecord::new(&design.strength),
-            settings: Settings {
-                ratio: options.ratio.to_string(),
-                search: format!("{:?}", options.fit.search).to_lowercase(),
-                torque_weight: options.fit.weight,
-                balance: options.fit.balance,
-                max_torque: options.fit.limits.max_derivative,
-                max_lean: options.fit.limits.max_lean,
-                refine: options.fit.refine,
-                effort: options.fit.effort,
-                choose: options.fit.choose,
-                star_weight: options.fit.star_weight,
-                teeth_style: format!("{:?}", options.style).to_lowercase(),
-                pressure_angle: options.pressure_angle,
-                addendum: options.addendum,
-                clearance: options.clearance,
-                backlash: options.backlash,
-                root_clearance: options.root_clearance,
-                chord_tolerance: options.chord_tolerance,
-                bore: format!("{:?}", options.bore),
-                outfit: format!("{:?}", options.outfit),
-                repair: options.repair,
-                driver_axis: options.fit.fixed.driver_axis.map(|p| [p.x, p.y]),
-                follower_axis: options.fit.fixed.follower_axis.map(|p| [p.x, p.y]),
-                orientation: options.fit.fixed.orientation,
-                symmetric: options.fit.symmetric,
-            },
+            settings: options.clone(),
+            used: design.used.clone(),
         }
     }
 }

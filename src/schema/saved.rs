@@ -9,6 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::fittings::{FittingsRecord, FixtureRecord};
+use super::record::RECORD_VERSION;
 use crate::assembly::{Assembly, Fixture, Gear, PlacedGear};
 use crate::gear::{MotionError, SampledMotion};
 use crate::geometry::{self, Point};
@@ -96,6 +97,12 @@ impl SavedDesign {
     /// What is missing or wrong, as half a sentence.
     pub fn from_json(text: &str) -> Result<Self, String> {
         let file: File = serde_json::from_str(text).map_err(|e| quoted(&e.to_string()))?;
+        if file.version > RECORD_VERSION {
+            return Err(format!(
+                "it is of version {}, and this centrode reads up to version {RECORD_VERSION}",
+                file.version
+            ));
+        }
         if file.units != "mm" {
             return Err(format!("its units are {:?} instead of \"mm\"", quoted(&file.units)));
         }
@@ -216,6 +223,8 @@ pub(super) fn bounded_text(path: &Path, limit: u64) -> io::Result<String> {
 /// The part of the file that is read; more may stand beside it.
 #[derive(Deserialize)]
 struct File {
+    #[serde(default)]
+    version: u32,
     units: String,
     #[serde(default = "plain_names")]
     names: [String; 2],
@@ -371,7 +380,7 @@ mod tests {
         assert_eq!(read.assembly(), made.assembly);
         assert_eq!(read.names, made.names);
         assert_eq!((read.ratio, read.module), (1.0, made.pair.module));
-        assert_eq!(read.settings["repair"], true);
+        assert_eq!(serde_json::from_value::<DesignOptions>(read.settings).unwrap(), made.options);
     }
 
     #[test]
@@ -391,6 +400,9 @@ mod tests {
         };
         let flat = serde_json::json!([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]);
         assert!(broken("/units", "inch".into()).contains("inch"));
+        let mut newer = sample();
+        newer["version"] = 99.into();
+        assert!(SavedDesign::from_json(&newer.to_string()).unwrap_err().contains("version 99"));
         assert!(broken("/module", (-1.0).into()).contains("module"));
         assert!(broken("/driver/outline", flat).contains("outline of its driver"));
         assert!(broken("/follower/teeth", 0.into()).contains("follower"));

@@ -289,7 +289,7 @@ fn bell_drives_candy_at_two() {
     let made = Made::new(&["bell", "candy", "-k", "2"]);
     made.keeps_its_promises(2.0);
     // Two chord tolerances: each k-th is within one of the true outline.
-    let tolerance = 2.0 * made.number("/settings/chord_tolerance") * made.number("/module");
+    let tolerance = 2.0 * made.number("/settings/chord-tolerance") * made.number("/module");
     covers_itself(&made.points("/follower/outline"), 2, tolerance);
     is_symmetric(&made.points("/follower/pitch_curve"), 2);
 }
@@ -299,7 +299,7 @@ fn leaf_drives_flower_at_three() {
     let made = Made::new(&["leaf", "flower", "-k", "3"]);
     made.keeps_its_promises(3.0);
     // Two chord tolerances: each k-th is within one of the true outline.
-    let tolerance = 2.0 * made.number("/settings/chord_tolerance") * made.number("/module");
+    let tolerance = 2.0 * made.number("/settings/chord-tolerance") * made.number("/module");
     covers_itself(&made.points("/follower/outline"), 3, tolerance);
     is_symmetric(&made.points("/follower/pitch_curve"), 3);
 }
@@ -376,5 +376,5 @@ fn the_search_of_the_paper_and_its_teeth() {
     let record: Value = serde_json::from_str(&text).unwrap();
     let sound = record["meshing"]["verdict"] != "unsound";
     assert_eq!(said.status.code(), Some(if sound { 0 } else { 1 }), "{}", complaint(&said));
-    assert_eq!(record["settings"]["teeth_style"], "wave");
+    assert_eq!(record["settings"]["teeth-style"], "wave");
 }

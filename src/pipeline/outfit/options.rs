@@ -4,7 +4,7 @@ use crate::geometry::{LetteringError, Point, lettering};
 use crate::pipeline::BoreChoice;
 use crate::policy;
 use crate::solid::hardware::{Bearing, Screw};
-use crate::solid::{Fit, NOZZLE, NotAScrew};
+use crate::solid::{Bore, BoreName, Fit, NOZZLE, NotAScrew};
 
 /// What the gears carry and stand on. Nothing by default. Lengths in mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -180,6 +180,24 @@ pub enum Base {
     },
     /// A plate with a ball bearing for each gear's shaft, and spacers.
     Bearing(Bearing),
+}
+
+impl Base {
+    /// The bore of gears that turn on it, where one goes with it and none was asked for.
+    #[must_use]
+    pub fn usual_bore(self, fit: Option<Fit>) -> Option<BoreChoice> {
+        Some(match self {
+            Self::None | Self::Pins => return None,
+            Self::Lego => BoreChoice::Exactly(Bore::Lego { play: policy::LEGO_AXLE_PLAY }),
+            Self::Screw { screw, .. } => BoreChoice::Named(BoreName::Screw(screw)),
+            Self::Bearing(bearing) => {
+                let shaft = Bore::Round { diameter: bearing.shaft };
+                // A fit of the user's own is added by the stage that cuts the bore.
+                let play = if fit.is_some() { 0.0 } else { policy::SLIDE_FIT };
+                BoreChoice::Exactly(shaft.with_play(play))
+            }
+        })
+    }
 }
 
 /// What holds a screw in a plate.
