@@ -81,10 +81,10 @@ pub fn judge_train(
         if let Some(worst) = rattle(run) {
             let remedy = quiet.map_or_else(
                 || "turn it more slowly, load it more, or make it lighter".to_owned(),
-                |rpm| format!("at {rpm:.3} rpm it does not"),
+                |rpm| format!("at {rpm} rpm it does not"),
             );
             warnings.push(format!(
-                "the train rattles at {:.3} rpm: {} lose contact for {:.2} of a pitch; {remedy}",
+                "the train rattles at {} rpm: {} lose contact for {:.2} of a pitch; {remedy}",
                 run.options.rpm,
                 name(worst.gears),
                 worst.free_run
