@@ -20,32 +20,32 @@ impl fmt::Display for Diagnostic {
         match self.code {
             Code::LimitsKept => write!(
                 f,
-                "bounds on slope and torque changed the pitch curves by {:.3} in the measure of E_s (slope {:.0} to {:.0} degrees)",
+                "the limits on slope and torque changed the pitch curves by {:.3}, measured as E_s (slope from {:.0} to {:.0} degrees)",
                 figure("shape"),
                 degrees("from"),
                 degrees("to")
             ),
             Code::Refined => write!(
                 f,
-                "refined: the area by which pitch curves and drawings differ, with the weighted torque, went from {:.1} to {:.1} %",
+                "refined: the area by which pitch curves and drawings differ, plus the weighted torque, went from {:.1} to {:.1} %",
                 percent("before"),
                 percent("after")
             ),
             Code::PoorLikeness => write!(
                 f,
-                "the {} keeps only {:.0} % of the likeness of {subject}; draw the shape less thin or less deeply cut",
+                "the {} keeps only {:.0} % of the likeness of {subject}; use a thicker shape or one with shallower bays",
                 gear(),
                 percent("share")
             ),
             Code::HiddenArea => write!(
                 f,
-                "areas of {subject} that are hidden from the {}'s axis are filled in, {:.1} % of its area; a shape with shallower bays keeps more",
+                "areas of {subject} hidden from the {}'s axis are filled in, {:.1} % of its area; a shape with shallower bays keeps more",
                 gear(),
                 percent("share")
             ),
             Code::CornersRounded => write!(
                 f,
-                "corners too sharp for the teeth were rounded: {:.3} in the measure of E_s",
+                "corners too sharp for the teeth were rounded, which changes the pitch curves by {:.3}, measured as E_s",
                 figure("shape")
             ),
             Code::MotionChanged => write!(
@@ -92,7 +92,7 @@ impl fmt::Display for Diagnostic {
                 let (x, y) = self.point();
                 write!(
                     f,
-                    "the body of the {} is thinner than {:.2} mm between its roots near ({x:.1}, {y:.1}); use more teeth or a less thin shape",
+                    "the body of the {} is thinner than {:.2} mm between its roots near ({x:.1}, {y:.1}); use more teeth or a thicker shape",
                     gear(),
                     figure("thickness")
                 )
@@ -113,13 +113,13 @@ impl fmt::Display for Diagnostic {
             ),
             Code::ContactLostBackward => write!(
                 f,
-                "driven backwards the pair loses contact; {}",
+                "driven backwards, the pair loses contact; {}",
                 self.remedy_of_lost_contact()
             ),
             Code::NoContact => match self.figure("gap") {
                 Some(gap) => write!(
                     f,
-                    "the gears never touch, {gap:.3} mm are left between them; bring the axes closer"
+                    "the gears never touch, a gap of {gap:.3} mm remains; bring the axes closer"
                 ),
                 None => write!(f, "the gears never touch; bring the axes closer"),
             },
@@ -152,11 +152,11 @@ impl fmt::Display for Diagnostic {
             ),
             Code::Jam => write!(
                 f,
-                "the gears jam at {at:.0} degrees: a motor of several times the torque does not turn them on; give more clearance"
+                "the gears jam at {at:.0} degrees: a motor of several times the torque does not turn them past it; give more clearance"
             ),
             Code::FlungApart => write!(
                 f,
-                "the gears are flung apart at {at:.0} degrees; check that they do not overlap there"
+                "the simulation diverges at {at:.0} degrees; check that the outlines do not overlap there"
             ),
             Code::FreeRun => write!(
                 f,
@@ -183,7 +183,7 @@ impl fmt::Display for Diagnostic {
             ),
             Code::Torque => write!(
                 f,
-                "the driver's torque is {:+.2} loads off its ideal at {at:.0} degrees (limit {:.2}); reduce friction or slope",
+                "the driver's torque differs from its ideal by {:+.2} times the load at {at:.0} degrees (limit {:.2}); reduce friction or slope",
                 figure("loads"),
                 figure("limit")
             ),
@@ -200,12 +200,12 @@ impl fmt::Display for Diagnostic {
             ),
             Code::CutShort => write!(
                 f,
-                "the run ended at {:.0} degrees, after as many steps as are allowed; simulate fewer cycles",
+                "the run ended at {:.0} degrees, after the largest number of steps allowed; simulate fewer cycles",
                 self.driver_angle().unwrap_or(f64::NAN).to_degrees()
             ),
             Code::NarrowBore => write!(
                 f,
-                "the bore of the {} is {:.1} mm: a wider one leaves too thin a wall; make the pair larger for a wider one",
+                "the bore of the {} is {:.1} mm: a wider one would leave too thin a wall; make the pair larger",
                 gear(),
                 figure("diameter")
             ),
@@ -226,12 +226,12 @@ impl fmt::Display for Diagnostic {
             ),
             Code::NameHasNoRoom => write!(
                 f,
-                "the {} bears no name: there is no room for it; give a shorter text, or make the pair larger",
+                "the name does not fit on the {}; give a shorter text, or make the pair larger",
                 gear()
             ),
             Code::NameUnwritable => write!(
                 f,
-                "the {} bears no name: no font here can write it; give a text in plain letters",
+                "the name on the {} has characters that no font here has; give a text in plain letters",
                 gear()
             ),
             Code::SectorCut => write!(
@@ -246,7 +246,7 @@ impl fmt::Display for Diagnostic {
             Code::SectorWhole => {
                 write!(
                     f,
-                    "the {} needs nearly all of its turn for the segment and stays whole",
+                    "the {} needs nearly all of its teeth for the segment and stays whole",
                     gear()
                 )
             }
@@ -257,7 +257,7 @@ impl fmt::Display for Diagnostic {
             ),
             Code::SectorContact => write!(
                 f,
-                "cut to its segment the pair loses contact or overlaps at {at:.1} degrees of driver turn; leave out --sector or give more teeth"
+                "cut to its segment, the pair loses contact or overlaps at {at:.1} degrees of driver turn; leave out --sector or give more teeth"
             ),
         }
     }

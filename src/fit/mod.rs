@@ -176,9 +176,7 @@ pub enum FitError {
     #[error("a fixed axis or orientation is not a finite number; correct it or leave it out")]
     FixedNotFinite,
     /// No rotation centre inside a shape makes a pair.
-    #[error(
-        "no pair of rotation centres inside the shapes makes a law; use shapes that are less thin"
-    )]
+    #[error("no pair of rotation centres inside the shapes makes a law; use thicker shapes")]
     NoCenter,
     /// The search was stopped.
     #[error(transparent)]

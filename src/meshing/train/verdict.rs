@@ -49,7 +49,7 @@ pub fn judge_train(
                 degrees(driver_angle)
             )),
             Some(Stop::Diverged { driver_angle }) => faults.push(format!(
-                "the gears are flung apart at {:.0} degrees; check that no two overlap there",
+                "the simulation diverges at {:.0} degrees; check that no two gears overlap there",
                 degrees(driver_angle)
             )),
             Some(Stop::TooLong { .. }) => warnings.push(
