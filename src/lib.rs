@@ -64,6 +64,7 @@ pub mod schema;
 pub mod solid;
 pub mod strength;
 #[cfg(feature = "studio")]
-mod studio;
+#[doc(hidden)]
+pub mod studio;
 pub mod teeth;
 mod wording;

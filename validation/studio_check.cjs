@@ -195,7 +195,7 @@ const main = async () => {
     await page.locator(".card.driver .axis").focus();
     await page.keyboard.press("ArrowUp");
     must(await option("driver-axis"), "the axis did not move");
-    await page.locator(".stage canvas").focus();
+    await page.locator(".stage > canvas").focus();
     const angle = () => page.locator(".transport input").inputValue();
     await page.keyboard.press("ArrowRight");
     const before = Number(await angle());

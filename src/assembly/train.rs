@@ -195,11 +195,30 @@ impl TrainPlan {
         Ok(Self { pairs: vec![pair], gears, closing, thickness })
     }
 
-    /// Puts the gears on their axles and works out how each turns.
+    /// Puts the gears on their axles and works out how each turns; no two may collide, and rings must close.
     ///
     /// # Errors
     /// See [`TrainError`].
     pub fn assemble(&self) -> Result<Train, TrainError> {
+        let train = self.placed()?;
+        self.judge(&train)?;
+        Ok(train)
+    }
+
+    /// Looks for collisions of a train that stands, and for rings that do not close.
+    ///
+    /// # Errors
+    /// [`TrainError::Collision`], [`TrainError::Open`].
+    pub fn judge(&self, train: &Train) -> Result<(), TrainError> {
+        self.check_rings(&train.assembly)?;
+        collisions::check(&train.assembly)
+    }
+
+    /// The gears on their axles, whether or not they collide: for looking at.
+    ///
+    /// # Errors
+    /// See [`TrainError`]; not [`TrainError::Collision`] or [`TrainError::Open`].
+    pub fn placed(&self) -> Result<Train, TrainError> {
         self.check()?;
         let axes = self.axes();
         let (cycle, per_cycle) = self.cycle(&axes)?;
@@ -244,8 +263,6 @@ impl TrainPlan {
             axles: fixed,
             fixtures: Vec::new(),
         };
-        self.check_rings(&assembly)?;
-        collisions::check(&assembly)?;
         let module = self.pairs.iter().map(|p| p.module).fold(f64::INFINITY, f64::min);
         Ok(Train { assembly, module })
     }

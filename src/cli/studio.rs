@@ -14,6 +14,8 @@ use clap::{Args, Parser, ValueHint};
 use super::args::{Cli, Command, ExportArgs};
 use super::{Outcome, design, making, mate, motion, scene};
 
+pub(crate) use super::train::files as train_files;
+
 /// Options of `centrode studio`.
 #[derive(Debug, Args)]
 pub(crate) struct StudioArgs {

@@ -18,10 +18,10 @@ use centrode::policy;
 use centrode::report::{Note, NoteKind, Plot, ReportData, Section, report_html};
 use centrode::schema::{SavedDesign, read_train};
 use centrode::solid::assembly_solids;
-use clap::{Args, ValueEnum};
+use clap::{Args, Parser, ValueEnum};
 use serde_json::json;
 
-use super::args::{ExportArgs, RunArgs};
+use super::args::{Cli, Command, ExportArgs, RunArgs};
 use super::files::write_text;
 use super::progress::Progress;
 use super::{Outcome, units};
@@ -91,6 +91,41 @@ struct Made {
 
 pub(crate) fn run(args: &TrainArgs) -> anyhow::Result<Outcome> {
     let progress = Progress::new();
+    let made = made(args, &progress)?;
+    if !made.faults.is_empty() && !args.force {
+        progress.done();
+        eprintln!("error: {} (--force writes the files all the same)", not_sound(&made));
+        return Ok(Outcome::NotSound);
+    }
+    progress.doing("writing files");
+    let staging = Staging::new(&args.output)?;
+    let files = write(&staging, &made, args)?;
+    let files = staging.publish_beside(&files, &[&args.plan], "plan")?;
+    progress.done();
+    summary(&made, &files, args)?;
+    Ok(if made.faults.is_empty() { Outcome::Good } else { Outcome::NotSound })
+}
+
+fn not_sound(made: &Made) -> String {
+    format!("the train is not sound, so nothing was written: {}", made.faults.join("; "))
+}
+
+/// The files that the words of a `centrode train` command would write, in a hidden folder inside its output folder.
+pub(crate) fn files(words: &[String]) -> anyhow::Result<(Staging, Vec<PathBuf>)> {
+    let Command::Train(args) = Cli::try_parse_from(words)?.command else {
+        bail!("this command makes no train");
+    };
+    let made = made(&args, &Progress::new())?;
+    if !made.faults.is_empty() {
+        bail!("{}", not_sound(&made));
+    }
+    let staging = Staging::new(&args.output)?;
+    let files = write(&staging, &made, &args)?;
+    Ok((staging, files))
+}
+
+/// The train that is asked for, put together, measured and run.
+fn made(args: &TrainArgs, progress: &Progress) -> anyhow::Result<Made> {
     progress.doing("putting the gears on their axles");
     let (plan, train) = assembled(args)?;
     check_folder(&args.output)?;
@@ -113,22 +148,7 @@ pub(crate) fn run(args: &TrainArgs) -> anyhow::Result<Outcome> {
     }
     let (mut faults, warnings) = judge_train(assembly, &play, &runs, quiet);
     faults.splice(0..0, reversed);
-    let made = Made { play, runs, faults, warnings, train };
-    if !made.faults.is_empty() && !args.force {
-        progress.done();
-        eprintln!(
-            "error: the train is not sound, so nothing was written: {} (--force writes the files all the same)",
-            made.faults.join("; ")
-        );
-        return Ok(Outcome::NotSound);
-    }
-    progress.doing("writing files");
-    let staging = Staging::new(&args.output)?;
-    let files = write(&staging, &made, args)?;
-    let files = staging.publish_beside(&files, &[&args.plan], "plan")?;
-    progress.done();
-    summary(&made, &files, args)?;
-    Ok(if made.faults.is_empty() { Outcome::Good } else { Outcome::NotSound })
+    Ok(Made { play, runs, faults, warnings, train })
 }
 
 /// What the train is made of, and its gears on their axles.

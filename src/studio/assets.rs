@@ -34,6 +34,7 @@ const FILES: &[(&str, &str)] = page! {
     "solid.js"
     "store.js"
     "tabs.js"
+    "train.js"
     "texts.js"
     "theme.js"
     "transport.js"

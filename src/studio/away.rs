@@ -14,14 +14,18 @@ use std::sync::Arc;
 use zip::write::SimpleFileOptions;
 
 use super::engine::{Engine, Stopped};
-use super::protocol::State;
+use super::protocol::{BadMessage, State};
 use super::{App, words};
 use crate::cli::studio::{command_text, plan, scene_text};
+use centrode::export::Staging;
+
+/// Bytes that the names of all formats wanted may have together.
+const MOST_FORMATS: usize = 400;
 
 /// Where files go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Place {
+pub(super) enum Place {
     /// Into the browser: the file itself where there is one, else a zip.
     Download,
     /// Into the output folder.
@@ -42,10 +46,31 @@ pub(super) struct Order {
     place: Place,
 }
 
+impl Order {
+    /// Refuses what no page would send.
+    pub(super) fn check(&self) -> Result<(), BadMessage> {
+        self.state.check()?;
+        few(&self.formats)
+    }
+
+    /// What it is of.
+    pub(super) fn state(&self) -> &State {
+        &self.state
+    }
+}
+
+/// Refuses lists of formats that no page would send.
+pub(super) fn few(formats: &[String]) -> Result<(), BadMessage> {
+    match formats.iter().map(String::len).sum::<usize>() {
+        0..=MOST_FORMATS => Ok(()),
+        _ => Err(BadMessage::Options(formats.len())),
+    }
+}
+
 /// Carries an order out.
 pub(super) async fn export(Shared(app): Shared<Arc<App>>, Json(order): Json<Order>) -> Response {
-    if order.state.check().is_err() || order.formats.len() > 20 {
-        return refused("the order is too long; reload the page");
+    if let Err(error) = order.check() {
+        return refused(&error.to_string());
     }
     let Ok(_turn) = app.exports.acquire().await else { return refused("the studio is closing") };
     let worker = Arc::clone(&app);
@@ -56,7 +81,7 @@ pub(super) async fn export(Shared(app): Shared<Arc<App>>, Json(order): Json<Orde
     }
 }
 
-fn refused(text: &str) -> Response {
+pub(super) fn refused(text: &str) -> Response {
     (StatusCode::UNPROCESSABLE_ENTITY, Json(json!({ "text": text }))).into_response()
 }
 
@@ -78,27 +103,40 @@ fn carried_out(app: &App, order: &Order) -> Result<Response, String> {
         .map_err(said)?;
     let told = |error: anyhow::Error| crate::cli::told(&error);
     let (staging, files) = plan.files(&made, &given, &app.output).map_err(told)?;
-    if order.place == Place::Folder {
-        let published = staging.publish(&files).map_err(|e| e.to_string())?;
+    if let Some(wanted) = order.file.as_ref().filter(|_| order.place == Place::Download) {
+        let path = files.iter().find(|f| name_of(f) == *wanted);
+        let path = path.ok_or_else(|| format!("no format writes {wanted}; choose another"))?;
+        return Ok(download(wanted, kind_of(wanted), bytes_of(path)?));
+    }
+    let title: Vec<String> = made.names.iter().map(|n| plain_name(n)).collect();
+    handed_over(app, staging, &files, order.place, &title.join("-"))
+}
+
+/// Files that stand in a hidden folder, moved to the output folder or sent as a zip.
+pub(super) fn handed_over(
+    app: &App,
+    staging: Staging,
+    files: &[PathBuf],
+    place: Place,
+    title: &str,
+) -> Result<Response, String> {
+    if place == Place::Folder {
+        let published = staging.publish(files).map_err(|e| e.to_string())?;
         super::keep_token(&app.output, app.guard.token());
         let names: Vec<String> = published.iter().map(|p| name_of(p)).collect();
         let answer = json!({ "folder": app.output, "files": names });
         return Ok(Json(answer).into_response());
     }
-    let read =
-        |path: &PathBuf| std::fs::read(path).map_err(|e| format!("the files are gone ({e})"));
-    if let Some(wanted) = &order.file {
-        let path = files.iter().find(|f| name_of(f) == *wanted);
-        let path = path.ok_or_else(|| format!("no format writes {wanted}; choose another"))?;
-        return Ok(download(wanted, kind_of(wanted), read(path)?));
-    }
     let mut contents = BTreeMap::new();
-    for path in &files {
-        contents.insert(name_of(path), read(path)?);
+    for path in files {
+        contents.insert(name_of(path), bytes_of(path)?);
     }
     let bytes = zipped(&contents).map_err(|e| format!("the zip cannot be made ({e})"))?;
-    let title: Vec<String> = made.names.iter().map(|n| plain_name(n)).collect();
-    Ok(download(&format!("{}.zip", title.join("-")), "application/zip", bytes))
+    Ok(download(&format!("{title}.zip"), "application/zip", bytes))
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, String> {
+    std::fs::read(path).map_err(|e| format!("the files are gone ({e})"))
 }
 
 fn name_of(path: &Path) -> String {

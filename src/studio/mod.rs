@@ -12,8 +12,10 @@ mod engine;
 mod findings;
 mod guard;
 mod protocol;
+mod records;
 mod server;
 mod tab;
+mod train;
 mod wire;
 mod words;
 
@@ -42,6 +44,39 @@ const TABS: usize = 24;
 const FOLDER: &str = "out";
 /// Holds the token between two runs of the studio in one folder, so that a page that is open finds it again.
 const TOKEN_FILE: &str = ".centrode-studio";
+
+/// Reads a message of one of the kinds that the server takes, as it would, and does not carry it out: for the fuzz target.
+///
+/// # Errors
+/// What the page would be told.
+pub fn read_message(kind: u8, text: &str) -> Result<(), String> {
+    fn order<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
+        serde_json::from_str(text).map_err(|e| protocol::BadMessage::from(e).to_string())
+    }
+    let said = |error: protocol::BadMessage| error.to_string();
+    let state = match kind % 6 {
+        0 => match protocol::Asked::read(text).map_err(said)? {
+            protocol::Asked::Make { state, .. } => state,
+        },
+        1 => {
+            let order: away::Order = order(text)?;
+            order.check().map_err(said)?;
+            order.state().clone()
+        }
+        2 => {
+            let order: train::Order = order(text)?;
+            order.check().map_err(said)?;
+            order.state().clone()
+        }
+        3 => words::opened(text).map_err(|e| crate::cli::told(&e))?,
+        4 => records::opened(text, &Drawings::default())?,
+        _ => order::<protocol::State>(text)?,
+    };
+    state.check().map_err(said)?;
+    let words = words::typed(&state, FOLDER);
+    crate::cli::studio::plan(&words).map_err(|blamed| blamed.text)?;
+    Ok(())
+}
 
 /// What all requests share.
 #[derive(Debug)]

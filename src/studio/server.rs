@@ -20,7 +20,7 @@ use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
 use super::guard::{HEADERS, Refusal};
-use super::{App, assets, away, controls, drawings, protocol, tab, wire};
+use super::{App, assets, away, controls, drawings, protocol, records, tab, train, wire};
 use centrode::outline::library;
 
 /// Connections at a time; more wait in the system's queue.
@@ -63,6 +63,7 @@ fn router(app: Arc<App>) -> Router {
         .route("/api/drawing", post(drawing).get(drawing_again))
         .route("/api/mirror", post(mirror))
         .route("/api/export", post(away::export))
+        .route("/api/train", post(train::train))
         .route("/api/open", post(open))
         .route("/api/texts", post(away::texts))
         .route("/api/socket", any(socket))
@@ -217,14 +218,18 @@ async fn mirror(
     }
 }
 
-/// Reads a scene; answers with the state it describes.
-async fn open(text: String) -> Response {
-    match super::words::opened(&text) {
-        Ok(state) => Json(json!(state)).into_response(),
-        Err(error) => {
-            (StatusCode::UNPROCESSABLE_ENTITY, Json(json!({ "text": crate::cli::told(&error) })))
-                .into_response()
+/// Reads a scene or the record of a design; answers with the state it describes.
+async fn open(Shared(app): Shared<Arc<App>>, text: String) -> Response {
+    let read = tokio::task::spawn_blocking(move || {
+        if text.trim_start().starts_with('{') {
+            return records::opened(&text, &app.drawings);
         }
+        super::words::opened(&text).map_err(|error| crate::cli::told(&error))
+    });
+    match read.await {
+        Ok(Ok(state)) => Json(json!(state)).into_response(),
+        Ok(Err(text)) => away::refused(&text),
+        Err(_) => StatusCode::UNPROCESSABLE_ENTITY.into_response(),
     }
 }
 

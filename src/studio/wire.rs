@@ -30,7 +30,8 @@ const SMALL_POINTS: usize = 120;
 /// Decimals of lengths: a tenth of a micrometre.
 const FINE: f64 = 1e4;
 
-fn rounded(value: f64, fine: f64) -> f64 {
+/// A number with few digits; zero for what is none.
+pub(super) fn rounded(value: f64, fine: f64) -> f64 {
     let value = (value * fine).round() / fine;
     if value.is_finite() { value + 0.0 } else { 0.0 }
 }
@@ -41,7 +42,8 @@ fn ring(points: &[Point]) -> Value {
     Value::from(flat.collect::<Vec<f64>>())
 }
 
-fn point(p: Point) -> Value {
+/// A point as two numbers.
+pub(super) fn point(p: Point) -> Value {
     json!([rounded(p.x, 1e6), rounded(p.y, 1e6)])
 }
 

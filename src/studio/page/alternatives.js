@@ -77,7 +77,9 @@ export class Alternatives {
       fill(this.node, this.pairs.map((p) => p.node));
       for (const pair of this.pairs) pair.draw(this.transport.angle);
     }
-    this.node.hidden = this.pairs.length < 2 || this.store.state.way !== "design";
+    // The strip keeps its place while pairs are looked for: the stage must not jump.
+    this.node.hidden = this.store.state.way !== "design" || this.store.state.options.symmetric !== undefined;
+    if (!this.pairs.length && !this.node.hidden && !this.node.querySelector(".calm")) fill(this.node, el("p", { class: "calm" }, T.alternativesComing));
     const { options } = this.store.state;
     const held = ["driver-axis", "follower-axis", "orientation"].some((key) => options[key] !== undefined);
     for (const { node, number } of this.pairs) node.setAttribute("aria-pressed", String(!held && number === Number(options.choose || 1)));

@@ -14,7 +14,7 @@ import { dropPlaces, pick, setLargest } from "./picker.js";
 import { Plots } from "./plots.js";
 import { adopt, giveAgain } from "./shelf.js";
 import { Stage } from "./stage.js";
-import { EMPTY, Store } from "./store.js";
+import { EMPTY, Store, bare } from "./store.js";
 import { Tabs } from "./tabs.js";
 import { T } from "./texts.js";
 import { isDark, onTheme, toggle } from "./theme.js";
@@ -80,7 +80,7 @@ const start = async () => {
   const take = (told) => {
     if (told.type === "bad") { toast(told.text, "bad"); return; }
     if (told.type === "missing") {
-      giveAgain(told.ids).then((ok) => (ok ? link.want(store.state, false) : toast(T.drawingLost, "bad")), () => toast(T.drawingLost, "bad"));
+      giveAgain(told.ids).then((ok) => (ok ? want(store.state, false) : toast(T.drawingLost, "bad")), () => toast(T.drawingLost, "bad"));
       return;
     }
     if (told.type === "refused") {
@@ -117,6 +117,8 @@ const start = async () => {
   };
 
   let live = false;
+  let wanted = "";
+  const want = (state, isLive) => { wanted = JSON.stringify(bare(state)); link.want(bare(state), isLive); };
   const lost = el("span", { class: "offline", hidden: true }, T.lost);
   const link = new Link({
     onTold: (told, ms) => {
@@ -124,7 +126,7 @@ const start = async () => {
       if (told.type === "stage") performance.measure?.(`told-${told.stage}`, { start: performance.now() - ms, end: performance.now() });
     },
     onLost: () => { lost.hidden = false; },
-    onBack: () => { lost.hidden = true; model = { ...model, generation: undefined }; link.want(store.state, false); },
+    onBack: () => { lost.hidden = true; model = { ...model, generation: undefined }; want(store.state, false); },
   });
 
   const undo = el("button", { type: "button", class: "plain icon", title: T.undoKeys, "aria-label": T.undo, onclick: () => store.undo() }, icon("undo"));
@@ -133,7 +135,7 @@ const start = async () => {
   const showTheme = () => fill(theme, icon(isDark() ? "sun" : "moon"));
   onTheme(showTheme);
   showTheme();
-  const chooser = el("input", { type: "file", accept: ".toml", hidden: true, onchange: () => { if (chooser.files[0]) openScene(store, chooser.files[0]); chooser.value = ""; } });
+  const chooser = el("input", { type: "file", accept: ".toml,.json", hidden: true, onchange: () => { if (chooser.files[0]) openScene(store, chooser.files[0]); chooser.value = ""; } });
   const share = el("button", { type: "button", class: "plain", "aria-haspopup": "menu", onclick: () => menu(share, [
     { icon: icon("link"), text: T.copyLink, run: () => copyLink(store) },
     { icon: icon("code"), text: T.copyCommand, run: () => copyCommand(store) },
@@ -154,6 +156,9 @@ const start = async () => {
 
   const onState = (state, isLive) => {
     if (state.way === "motion" && !state.law && !state.options.preset && !state.options.centrode) { store.edit((s) => { s.law = FIRST_LAW; }); return; }
+    // A train changes nothing of its pair.
+    if (!isLive && !live && wanted === JSON.stringify(bare(state))) { undo.disabled = !store.past.length; redo.disabled = !store.future.length; tabs.train.show(model); return; }
+    if (isLive && wanted === JSON.stringify(bare(state))) return;
     live = isLive;
     root.dataset.settled = "no";
     undo.disabled = !store.past.length;
@@ -164,7 +169,7 @@ const start = async () => {
     law.show(state, model);
     alternatives.show(model);
     controls.show(state, model);
-    link.want(state, isLive);
+    want(state, isLive);
   };
   store.listen(onState);
   onState(store.state, false);

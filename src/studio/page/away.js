@@ -2,8 +2,8 @@
 
 import { dialog, el, fill, toast } from "./dom.js";
 import { icon } from "./icons.js";
-import { kept } from "./shelf.js";
-import { cleaned } from "./store.js";
+import { adopt, kept } from "./shelf.js";
+import { bare, cleaned } from "./store.js";
 import { T } from "./texts.js";
 
 const post = (path, body) => fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
@@ -34,7 +34,7 @@ const copyText = async (text) => {
 
 // The state as the program's other faces take it.
 const textsOf = async (state) => {
-  const answer = await post("api/texts", state);
+  const answer = await post("api/texts", bare(state));
   const said = await answer.json();
   if (!answer.ok) throw new Error(said.text);
   return said;
@@ -48,22 +48,34 @@ export const saveScene = async (store) => {
   try { saveBlob(new Blob([(await textsOf(store.state)).scene], { type: "application/toml" }), "pair.toml"); } catch (error) { toast(error.message, "bad"); }
 };
 
-// Takes the place of the state what a scene says.
+// Takes the place of the state what a scene or a design.json says.
 export const openScene = async (store, file) => {
   const answer = await fetch("api/open", { method: "POST", headers: { "content-type": "text/plain" }, body: await file.text() });
   const said = await answer.json().catch(() => ({ text: T.noScene }));
   if (!answer.ok) { toast(said.text, "bad"); return; }
+  for (const drawing of [said.driver, said.follower]) await adopt(drawing);
   store.edit(() => cleaned(said));
 };
 
 export const fetchFile = async (state, format, file) => {
-  const answer = await post("api/export", { state, formats: [format], file, place: "download" });
+  const answer = await post("api/export", { state: bare(state), formats: [format], file, place: "download" });
   if (!answer.ok) throw new Error((await answer.json()).text);
   return answer.blob();
 };
 
+const nameOf = (answer, otherwise) => /filename="([^"]+)"/.exec(answer.headers.get("content-disposition") || "")?.[1] || otherwise;
+
+// The files of a train, as a zip or to the folder.
+export const takeTrain = async (state, train, place) => {
+  const answer = await post("api/train", { state: bare(state), train, place });
+  if (!answer.ok) throw new Error((await answer.json()).text);
+  if (place === "folder") return answer.json();
+  saveBlob(await answer.blob(), nameOf(answer, "train.zip"));
+  return null;
+};
+
 export const takeAway = (store, formats, folder, model) => {
-  const { state } = store;
+  const state = bare(store.state);
   const wanted = new Set(formats.filter((f) => f !== "gif"));
   const status = el("span", { class: "soft", role: "status" });
   const busy = async (work) => {
@@ -85,8 +97,7 @@ export const takeAway = (store, formats, folder, model) => {
   const zip = el("button", { type: "button", class: "primary", autofocus: true, onclick: () => busy(async () => {
     const answer = await post("api/export", { state, formats: chosen(), place: "download" });
     if (!answer.ok) throw new Error((await answer.json()).text);
-    const name = /filename="([^"]+)"/.exec(answer.headers.get("content-disposition") || "")?.[1] || "pair.zip";
-    saveBlob(await answer.blob(), name);
+    saveBlob(await answer.blob(), nameOf(answer, "pair.zip"));
   }) }, icon("save"), T.downloadZip);
   const write = el("button", { type: "button", onclick: () => busy(async () => {
     const answer = await post("api/export", { state, formats: chosen(), place: "folder" });

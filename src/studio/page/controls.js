@@ -14,7 +14,7 @@ class Control {
     const name = T.name(spec.key);
     const id = `control-${spec.key}`;
     this.reset = el("button", { type: "button", class: "reset", "aria-label": T.reset(name), title: T.reset(name), onclick: () => store.setOption(spec.key, null) }, icon("reset"));
-    this.helpText = el("p", { class: "help", id: `${id}-help`, hidden: true }, spec.help, this.defaultText());
+    this.helpText = el("p", { class: "help", id: `${id}-help`, hidden: true }, spec.help.replace(/[.\s]*$/, "."), this.defaultText());
     this.ask = el("button", { type: "button", class: "ask", "aria-label": T.help(name), title: spec.help, "aria-expanded": "false", onclick: () => {
       this.helpText.hidden = !this.helpText.hidden;
       this.ask.setAttribute("aria-expanded", String(!this.helpText.hidden));
@@ -30,7 +30,7 @@ class Control {
     const { kind, unit } = this.spec;
     const value = this.spec.default ?? this.spec.chosen;
     if (value === null || value === undefined) return kind === "flag" ? T.defaultIs(T.off) : "";
-    return T.defaultIs(/\d$/.test(value) && unit ? `${value} ${unit}` : value);
+    return T.defaultIs(/\d$/.test(value) && unit ? `${value} ${unit}` : value.replace(/(\d)mm$/, "$1 mm"));
   }
 
   build(id) {
@@ -108,7 +108,7 @@ class Control {
       const text = value ?? this.spec.default ?? "";
       const plain = numberIn(text);
       this.field.value = kind === "number" && Number.isFinite(plain) ? written(plain, Math.min(step, 1e-4)) : text;
-      if (kind === "number") this.field.placeholder = Number.isFinite(found) ? `${T.chosen} ${written(found, step)}` : T.chosen;
+      if (kind === "number") this.field.placeholder = Number.isFinite(found) ? `${T.chosen} ${written(found, Math.max(step, found >= 10 ? 1 : 0.1))}` : T.chosen;
       else if (kind === "point" && found) this.field.placeholder = found;
     }
     if (this.slider) {

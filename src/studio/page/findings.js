@@ -63,7 +63,11 @@ export class Findings {
   }
 }
 
-const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+// Begins with a capital, and calls options as the page does.
+const sentence = (text) => {
+  const named = text.replace(/--([a-z][a-z-]*[a-z])/g, (all, key) => (T.name(key) === key ? all.replace(/-/g, "\u2011") : `“${T.name(key)}”`));
+  return named.charAt(0).toUpperCase() + named.slice(1);
+};
 
 export class Figures {
   constructor() {

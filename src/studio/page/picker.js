@@ -87,7 +87,7 @@ export const dropPlaces = (stage, onDropped, onScene) => {
     if (!files(event)) return;
     event.preventDefault();
     const given = Array.from(event.dataTransfer.files);
-    const scene = given.find((file) => /\.toml$/i.test(file.name));
+    const scene = given.find((file) => /\.toml$|^design.*\.json$/i.test(file.name));
     if (scene) { onScene(scene); return; }
     const first = sideOf(event);
     const drawings = [];

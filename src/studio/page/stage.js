@@ -31,6 +31,9 @@ export class Stage {
     this.node = el("div", { class: "stage" }, this.canvas);
     this.view = { x: 40, y: 0, scale: 4 };
     this.isOwn = false;
+    this.isClose = false;
+    // Room at the foot that something else takes, px.
+    this.foot = 0;
     this.layers = { ghost: true, pitch: true, contact: true };
     this.run = null;
     this.forces = null;
@@ -41,6 +44,7 @@ export class Stage {
     onTheme(() => { this.dirty = true; });
     this.listen();
     const frame = () => {
+      if (this.isClose && this.scene) this.follow();
       this.glide();
       if (this.dirty) this.draw();
       requestAnimationFrame(frame);
@@ -59,7 +63,7 @@ export class Stage {
     }, icon(name));
     const act = (name, run) => el("button", { type: "button", title: T[name], "aria-label": T[name], onclick: run }, icon(name));
     return el("div", { class: "tools" },
-      el("div", { class: "group" }, layer("ghost"), layer("pitch"), layer("contact")),
+      el("div", { class: "group layers" }, layer("ghost"), layer("pitch"), layer("contact")),
       el("div", { class: "group" }, act("mesh", () => this.toMesh()), act("fit", () => this.fit())));
   }
 
@@ -96,13 +100,14 @@ export class Stage {
 
   fitted() {
     const { left, right, height } = this.bounds();
-    const scale = MARGIN * Math.min(this.width / (right - left), (this.height - 70) / height);
-    return { x: (left + right) / 2, y: 0, scale };
+    const scale = MARGIN * Math.min(this.width / (right - left), (this.height - 70 - this.foot) / height);
+    return { x: (left + right) / 2, y: -this.foot / 2 / scale, scale };
   }
 
   fit(now = false) {
     if (!this.scene || !this.width) return;
     this.isOwn = false;
+    this.isClose = false;
     this.goal = this.fitted();
     if (now) { this.view = this.goal; this.goal = null; }
     this.dirty = true;
@@ -152,6 +157,16 @@ export class Stage {
     if (!this.scene) return;
     this.goal = { x: this.pitchPoint(), y: 0, scale: Math.min(this.width, this.height) / (CLOSE_MODULES * this.scene.module) };
     this.isOwn = true;
+    this.isClose = true;
+  }
+
+  // The close-up stays on the mesh while the gears turn.
+  follow() {
+    const x = this.pitchPoint();
+    if (this.goal) { this.goal.x = x; return; }
+    if (x === this.view.x) return;
+    this.view.x = x;
+    this.dirty = true;
   }
 
   poses() {
@@ -322,6 +337,7 @@ export class Stage {
     view.y = wy + (view.y - wy) / done;
     view.scale = scale;
     this.isOwn = true;
+    if (this.isClose && Math.hypot(wx - view.x, wy - view.y) * scale > 1) this.isClose = false;
     this.dirty = true;
   }
 
@@ -358,6 +374,7 @@ export class Stage {
       if (hold.gear >= 0) this.turnBy(hold, this.world(event));
       else {
         this.goal = null;
+        this.isClose = false;
         this.view.x -= (event.clientX - before.clientX) / this.view.scale;
         this.view.y += (event.clientY - before.clientY) / this.view.scale;
         this.isOwn = true;
@@ -373,7 +390,7 @@ export class Stage {
     canvas.addEventListener("pointercancel", up);
     canvas.addEventListener("dblclick", (event) => {
       if (this.isOwn) this.fit();
-      else { this.zoom(1, this.world(event)); const [x, y] = this.world(event); this.goal = { x, y, scale: this.view.scale * 5 }; }
+      else { this.zoom(1, this.world(event)); const [x, y] = this.world(event); this.goal = { x, y, scale: this.view.scale * 5 }; this.isClose = false; }
     });
   }
 

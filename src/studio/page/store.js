@@ -5,6 +5,9 @@ const STEPS = 200;
 
 export const EMPTY = { way: "design", driver: null, follower: null, law: null, options: {} };
 
+// The state without its train, which is put together after the pair is made.
+export const bare = ({ train, ...state }) => state;
+
 const copy = (state) => JSON.parse(JSON.stringify(state));
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
@@ -19,6 +22,12 @@ const unpacked = (text) => {
   return cleaned(JSON.parse(new TextDecoder().decode(bytes)));
 };
 
+const trainOf = (train) => {
+  if (!train || !Array.isArray(train.links)) return {};
+  const links = train.links.slice(0, 60).map(({ on, direction }) => ({ on: Number(on) || 0, direction: Number(direction) || 0 }));
+  return { train: { layout: String(train.layout), gears: Number(train.gears) || 2, links } };
+};
+
 // Only what a state may hold; throws where nothing can be made of it.
 export const cleaned = (given) => {
   const drawing = (d) => (d && typeof d.name === "string" ? { name: d.name, ...(typeof d.id === "string" ? { id: d.id } : {}) } : null);
@@ -27,7 +36,7 @@ export const cleaned = (given) => {
   return {
     way: ["design", "mate", "motion"].includes(given.way) ? given.way : "design",
     driver: drawing(given.driver), follower: drawing(given.follower),
-    law: typeof given.law === "string" ? given.law : null, options,
+    law: typeof given.law === "string" ? given.law : null, options, ...trainOf(given.train),
   };
 };
 

@@ -4,15 +4,21 @@ import { fetchFile } from "./away.js";
 import { el, fill, toast } from "./dom.js";
 import { degrees, shown } from "./numbers.js";
 import { Solid } from "./solid.js";
+import { bare } from "./store.js";
 import { T } from "./texts.js";
+import { TrainView } from "./train.js";
+
+// Room that the figures of a run take, px.
+const RUNS_FOOT = 110;
 
 export class Tabs {
   constructor(stage, transport, store) {
     Object.assign(this, { stage, transport, store, tab: "pair", chosen: 0, model: {} });
     this.solid = new Solid(transport, () => stage.poses());
+    this.train = new TrainView(transport, store);
     this.bar = el("div", { class: "tabs", role: "tablist" });
-    this.runs = el("div", { class: "runs", hidden: true });
-    stage.node.append(this.solid.node, this.bar, this.runs);
+    this.runs = el("div", { class: "runs strip", hidden: true });
+    stage.node.append(this.solid.node, this.train.node, this.bar, this.runs);
     this.showBar();
   }
 
@@ -34,6 +40,10 @@ export class Tabs {
     this.showBar();
     this.solid.node.hidden = tab !== "solid";
     this.runs.hidden = tab !== "runs";
+    this.stage.node.dataset.tab = tab;
+    const foot = tab === "runs" ? RUNS_FOOT : 0;
+    if (foot !== this.stage.foot) { this.stage.foot = foot; if (!this.stage.isOwn) this.stage.fit(); }
+    this.train.open(tab === "train");
     this.show(this.model);
   }
 
@@ -43,6 +53,7 @@ export class Tabs {
     this.stage.run = run ? this.pose(run) : null;
     this.stage.forces = run ? run.frames : null;
     this.stage.dirty = true;
+    this.train.show(model);
     if (this.tab === "runs") this.showRuns(model);
     if (this.tab === "solid") this.showSolid(model);
   }
@@ -74,7 +85,7 @@ export class Tabs {
 
   async showSolid({ stage }) {
     if (stage !== "proven") { this.solid.wait(true); return; }
-    const state = JSON.stringify(this.store.state);
+    const state = JSON.stringify(bare(this.store.state));
     if (this.made === state) { this.solid.wait(false); this.solid.draw(); return; }
     if (this.making === state) return;
     this.making = state;
