@@ -1,5 +1,7 @@
 // What both browser tests of the studio share: the server, the browser, and waiting for a stage.
 const { spawn } = require("node:child_process");
+const fs = require("node:fs");
+const path = require("node:path");
 const { chromium } = require("playwright-core");
 
 const FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -26,4 +28,16 @@ const reached = (page, stage, ms = 120_000) => page.waitForFunction((wanted) => 
   return settled === "yes" && order.indexOf(now) >= order.indexOf(wanted);
 }, stage, { timeout: ms });
 
-module.exports = { launch, reached, serve };
+// With STUDIO_PAGE set, scripts and styles come from that folder instead of the program: for work on the page without a build.
+const withPage = async (context) => {
+  const folder = process.env.STUDIO_PAGE;
+  if (!folder) return;
+  const kinds = { ".js": "text/javascript", ".css": "text/css" };
+  await context.route(/\.(js|css)$/, async (route) => {
+    const file = path.join(folder, path.basename(new URL(route.request().url()).pathname));
+    if (!fs.existsSync(file)) { await route.continue(); return; }
+    await route.fulfill({ body: fs.readFileSync(file), contentType: kinds[path.extname(file)] });
+  });
+};
+
+module.exports = { launch, reached, serve, withPage };

@@ -3,7 +3,7 @@ const { execFileSync } = require("node:child_process");
 const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
-const { launch, reached, serve } = require("./studio_browser.cjs");
+const { launch, reached, serve, withPage } = require("./studio_browser.cjs");
 
 const [program, browserPath, pictures] = process.argv.slice(2);
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "studio-"));
@@ -22,10 +22,35 @@ const check = async (name, work) => {
 };
 const must = (fact, text) => { if (!fact) throw new Error(text); };
 
+// Texts whose colour is too near to that of their ground; runs in the page.
+const weakTexts = () => {
+  const channels = (text) => { const m = /rgba?\(([\d.]+), ([\d.]+), ([\d.]+)(?:, ([\d.]+))?\)/.exec(text); return m ? [Number(m[1]), Number(m[2]), Number(m[3]), m[4] === undefined ? 1 : Number(m[4])] : [0, 0, 0, 0]; };
+  const over = (top, under) => [0, 1, 2].map((i) => top[i] * top[3] + under[i] * (1 - top[3]));
+  const light = (rgb) => { const [r, g, b] = rgb.map((v) => { const s = v / 255; return s <= 0.03928 ? s / 12.92 : ((s + 0.055) / 1.055) ** 2.4; }); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const ground = (node) => {
+    if (!node) return [255, 255, 255];
+    const own = channels(getComputedStyle(node).backgroundColor);
+    return own[3] === 1 ? own.slice(0, 3) : over(own, ground(node.parentElement));
+  };
+  const weak = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let text = walker.nextNode(); text; text = walker.nextNode()) {
+    const node = text.parentElement;
+    if (!text.textContent.trim() || !node.checkVisibility({ visibilityProperty: true }) || node.closest(":disabled, .barred, noscript, script")) continue;
+    const under = ground(node);
+    const [a, b] = [light(over(channels(getComputedStyle(node).color), under)), light(under)];
+    const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    if (ratio < 4.5) weak.push(`"${text.textContent.trim().slice(0, 30)}" ${ratio.toFixed(2)}`);
+  }
+  return weak;
+};
+
 const main = async () => {
-  let { child, address } = await serve(program, ["-o", "out", "--port", "4911"], folder);
+  let { child, address } = await serve(program, ["-o", "out"], folder);
+  const { port } = new URL(address);
   const browser = await launch(browserPath);
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, acceptDownloads: true });
+  await withPage(context);
   const page = await context.newPage();
   const errors = [];
   const foreign = [];
@@ -169,7 +194,7 @@ const main = async () => {
     child.removeAllListeners("exit");
     child.kill("SIGKILL");
     await page.waitForSelector(".offline:not([hidden])");
-    ({ child } = await serve(program, ["-o", "out", "--port", "4911"], folder));
+    ({ child } = await serve(program, ["-o", "out", "--port", port], folder));
     await page.waitForSelector(".offline", { state: "hidden", timeout: 20_000 });
     await page.locator("#control-center-distance").fill("90");
     await page.locator("#control-center-distance").press("Enter");
@@ -216,6 +241,86 @@ const main = async () => {
     await page.locator(".ways button").nth(1).click();
     await reached(page, "analysed");
     await page.locator(".ways button").nth(0).click();
+  });
+  await check("a remedy is one click and one undo", async () => {
+    const before = JSON.stringify(await state());
+    // So many teeth that some are undercut or warned of.
+    await page.locator("#control-teeth").fill("9");
+    await page.locator("#control-teeth").press("Enter");
+    await reached(page, "analysed");
+    const remedy = page.locator(".finding .actions button", { hasText: "→" }).first();
+    if (await remedy.count()) {
+      const with9 = JSON.stringify(await state());
+      await remedy.click();
+      must(JSON.stringify(await state()) !== with9, "the remedy changed nothing");
+      await page.keyboard.press("Control+z");
+      must(JSON.stringify(await state()) === with9, "undo did not take it back");
+    } else console.log("      (this pair needs none)");
+    await page.keyboard.press("Control+z");
+    must(JSON.stringify(await state()) === before, "undo did not come back");
+  });
+  await check("a train: gears are added, laid and dragged, collisions show, and its files are those of the command line", async () => {
+    await page.locator(".ways button").nth(2).click();
+    await reached(page, "proven");
+    await page.locator(".stage .tabs button").nth(3).click();
+    const stands = () => page.waitForFunction(() => document.querySelector(".train").dataset.asked === "yes", null, { timeout: 60_000 });
+    await stands();
+    const lay = async (layout) => { await page.locator(`.train [data-layout=${layout}]`).click(); await stands(); };
+    await lay("zigzag");
+    await page.locator(".train .strip .primary").click();
+    await stands();
+    must(await page.locator(".train .chip").count() === 5, "no fifth gear");
+    await picture("train");
+    const [download] = await Promise.all([page.waitForEvent("download", { timeout: 120_000 }), page.locator(".train .strip button", { hasText: "zip" }).click()]);
+    await download.saveAs(path.join(folder, "train.zip"));
+    execFileSync("python3", ["-m", "zipfile", "-e", path.join(folder, "train.zip"), path.join(folder, "train")]);
+    fs.mkdirSync(path.join(folder, "own"));
+    fs.copyFileSync(path.join(folder, "train/design.json"), path.join(folder, "own/design.json"));
+    execFileSync(program, ["train", "own", "--layout", "zigzag", "--gears", "5", "-o", "rows"], { cwd: folder });
+    for (const name of fs.readdirSync(path.join(folder, "rows"))) {
+      const [a, b] = ["train", "rows"].map((d) => fs.readFileSync(path.join(folder, d, name)));
+      must(a.equals(b), `${name} differs`);
+    }
+    // The third gear is dragged round the second one, onto the first.
+    await lay("straight");
+    const pause = page.locator(".transport .play[aria-label=Pause]");
+    if (await pause.count()) await pause.click();
+    const at = await page.locator(".train").evaluate((node) => JSON.parse(node.dataset.axes));
+    const [[x1, y1], [x2, y2], [x3, y3]] = at;
+    const box = await page.locator(".train canvas").boundingBox();
+    await page.mouse.move(box.x + x3, box.y + y3);
+    await page.mouse.down();
+    for (let i = 1; i <= 12; i += 1) {
+      const turn = (Math.PI * 0.9 * i) / 12;
+      await page.mouse.move(box.x + x2 + (x3 - x2) * Math.cos(turn), box.y + y2 - (x3 - x2) * Math.sin(turn));
+    }
+    await page.mouse.up();
+    await stands();
+    must(await page.locator(".train .status.bad").isVisible(), "no collision is told");
+    must((await state()).train.layout === "free" && Math.hypot(x1 - x2, y1 - y2) > 10, "not put by hand");
+    await picture("collision");
+    await page.keyboard.press("Control+z");
+    await stands();
+    must(!(await page.locator(".train .status.bad").count()), "undo did not take the drag back");
+    await page.locator(".stage .tabs button").nth(0).click();
+  });
+  await check("a design.json opens as the pair that it records", async () => {
+    await page.locator("input[type=file][accept*=toml]").setInputFiles(path.join(folder, "line/design.json"));
+    await page.waitForFunction(() => document.title.startsWith("fish and butterfly"));
+    await reached(page, "proven");
+    must(await option("driver-axis"), "its axes are not held");
+    expectBreak = true;
+    await page.locator("input[type=file][accept*=toml]").setInputFiles(path.join(drawings, "fish.svg"));
+    await page.waitForSelector(".toast.bad");
+    expectBreak = false;
+  });
+  await check("text stands out from its ground in both themes (WCAG AA, 4.5 to 1)", async () => {
+    for (const theme of ["light", "dark"]) {
+      if (await page.evaluate(() => document.documentElement.dataset.theme) !== theme) await page.locator("[aria-label='Dark or light']").click();
+      await page.waitForTimeout(400);
+      const weak = await page.evaluate(weakTexts);
+      must(!weak.length, `${theme}: ${weak.slice(0, 3).join("; ")}`);
+    }
   });
   await check("dark, and a tablet", async () => {
     await page.locator("[aria-label='Dark or light']").click();

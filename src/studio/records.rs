@@ -1,5 +1,7 @@
 //! Opening the record of a design: its drawings and settings as a state.
 
+use std::collections::BTreeMap;
+
 use centrode::outline::library;
 use centrode::policy;
 use serde::Deserialize;
@@ -55,6 +57,13 @@ pub(super) fn opened(text: &str, drawings: &Drawings) -> Result<State, String> {
         DrawingRef { name, id }
     };
     let held = [named(0), named(1)];
+    let understood = |options: &BTreeMap<String, String>| {
+        let [driver, follower] = held.clone().map(Some);
+        let state = State { driver, follower, options: options.clone(), ..State::default() };
+        state.check().ok()?;
+        let plan = plan(&words::of(&state, "out")).ok()?;
+        Some((plan.load, plan.options))
+    };
     for (key, value) in &record.settings {
         let text = match value {
             Value::Bool(true) => "true".to_owned(),
@@ -62,12 +71,11 @@ pub(super) fn opened(text: &str, drawings: &Drawings) -> Result<State, String> {
             Value::String(text) => text.clone(),
             _ => continue,
         };
-        // A setting that the command line does not know, or spells otherwise, is left at its default.
-        let mut alone = state.clone();
-        (alone.driver, alone.follower) = (Some(held[0].clone()), Some(held[1].clone()));
-        alone.options.insert(key.clone(), text);
-        if alone.check().is_ok() && plan(&words::of(&alone, "out")).is_ok() {
-            state.options = alone.options;
+        // What the command line does not know, or what changes nothing, is left at its default.
+        let mut more = state.options.clone();
+        more.insert(key.clone(), text);
+        if understood(&more).is_some_and(|asked| Some(asked) != understood(&state.options)) {
+            state.options = more;
         }
     }
     // The search need not find the axes again.
@@ -100,7 +108,7 @@ mod tests {
         });
         json!({
             "names": [name, "dove"], "driver": gear, "follower": gear,
-            "settings": { "clearance": 0.2, "strict": true, "max-torque": null, "no-such": 3 },
+            "settings": { "clearance": 0.2, "strict": true, "max-torque": null, "balance": 0.5, "no-such": 3 },
         })
         .to_string()
     }
@@ -112,7 +120,9 @@ mod tests {
         assert_eq!(state.driver.unwrap().id, None);
         assert_eq!(state.options["driver-axis"], "50.0000,40.0000");
         assert_eq!((&*state.options["clearance"], &*state.options["strict"]), ("0.2", "true"));
-        assert!(!state.options.contains_key("no-such"));
+        for key in ["no-such", "balance"] {
+            assert!(!state.options.contains_key(key), "{key}");
+        }
         // A drawing that is not built in comes from the record.
         let state = opened(&record("my box", Some([1.0, 2.0])), &drawings).unwrap();
         let drawing = state.driver.unwrap();

@@ -164,6 +164,9 @@ export class TrainView {
     const ready = this.model.stage === "proven";
     this.note.hidden = ready || Boolean(this.data);
     this.note.textContent = this.model.refused ? this.model.refused.text : T.trainComing;
+    // For whoever drives the page by a program.
+    this.node.dataset.asked = this.data && !this.asking && !this.again ? "yes" : "no";
+    this.node.dataset.axes = JSON.stringify(this.axes.map((p) => this.onScreen(p)));
     const { fault, at } = this.data || {};
     const said = this.asking ? null : this.failed || fault;
     this.status.classList.toggle("bad", Boolean(said));
@@ -312,6 +315,11 @@ export class TrainView {
     const box = this.canvas.getBoundingClientRect();
     const { x, y, scale } = this.view;
     return [x + (event.clientX - box.left - box.width / 2) / scale, y - (event.clientY - box.top - box.height / 2) / scale];
+  }
+
+  onScreen([px, py]) {
+    const { x, y, scale } = this.view;
+    return [this.canvas.clientWidth / 2 + (px - x) * scale, this.canvas.clientHeight / 2 - (py - y) * scale];
   }
 
   gearAt([x, y]) {
