@@ -43,7 +43,7 @@ pub(crate) enum Command {
     /// Make a gear of one shape, and the gear that runs with it
     Mate(Box<MateArgs>),
     /// Judge two gears, whoever made them: exit code 0 when they mesh, 1 when not, 2 for bad input
-    Check(Box<CheckArgs>),
+    Check(Box<super::check::CheckArgs>),
     /// Run a saved design again as rigid bodies, with other load, friction or direction
     Simulate(Box<SimulateArgs>),
     /// Write more formats of a pair that `design` made before
@@ -217,62 +217,6 @@ pub(crate) struct ShapesArgs {
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) sheet: Option<PathBuf>,
     /// Print the names as JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-/// Options of `centrode check`.
-#[derive(Debug, Args)]
-pub(crate) struct CheckArgs {
-    /// Outline of the driver: SVG, DXF, CSV, JSON, STL or OBJ, or a folder with a design.json
-    #[arg(value_name = "DRIVER", value_hint = ValueHint::FilePath)]
-    pub(crate) driver: String,
-    /// Outline of the follower, likewise; from a design.json the follower is taken
-    #[arg(value_name = "FOLLOWER", value_hint = ValueHint::FilePath)]
-    pub(crate) follower: String,
-    /// Distance between the axes [default: that of the design.json, or of both where they agree]
-    #[arg(short = 'L', long, value_name = "LENGTH", value_parser = units::center_distance, allow_hyphen_values = true)]
-    pub(crate) center_distance: Option<f64>,
-    /// An even motion: turns of the driver for one turn of the follower
-    #[arg(short = 'k', long, value_name = "K", value_parser = units::ratio, conflicts_with = "motion", allow_hyphen_values = true)]
-    pub(crate) ratio: Option<f64>,
-    /// The motion as two columns, driver and follower angle in radians [default: from contact]
-    #[arg(long, value_name = "FILE.csv")]
-    pub(crate) motion: Option<PathBuf>,
-    /// Axis of the driver in its file, mm [default: its bore, else the origin]
-    #[arg(long, value_name = "X,Y", value_parser = units::point, allow_hyphen_values = true)]
-    pub(crate) driver_axis: Option<Point>,
-    /// Axis of the follower in its file, mm
-    #[arg(long, value_name = "X,Y", value_parser = units::point, allow_hyphen_values = true)]
-    pub(crate) follower_axis: Option<Point>,
-    /// Teeth of driver and follower [default: counted]
-    #[arg(long, value_name = "N,M", value_parser = units::two_counts, allow_hyphen_values = true)]
-    pub(crate) teeth: Option<[u32; 2]>,
-    /// Turn of the follower's drawing, clockwise, at driver angle 0, degrees [default: found]
-    #[arg(long, value_name = "DEGREES", value_parser = units::degrees, allow_hyphen_values = true)]
-    pub(crate) phase: Option<f64>,
-    /// Widest gap between ends of lines that is joined [default: 0.05 mm, or 1e-4 of the drawing if that is more]
-    #[arg(long, value_name = "LENGTH", value_parser = units::length_or_zero, allow_hyphen_values = true)]
-    pub(crate) join: Option<f64>,
-    /// Judge by contact alone, without a rigid-body run
-    #[arg(long)]
-    pub(crate) no_simulate: bool,
-    /// Run the driver both ways round
-    #[arg(long, conflicts_with = "no_simulate")]
-    pub(crate) both: bool,
-    /// Torque that holds the follower back, N mm
-    #[arg(long, default_value = default_text("load"), value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
-    pub(crate) load: f64,
-    /// Speed of the driver, turns a minute
-    #[arg(long, default_value = default_text("rpm"), value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
-    pub(crate) rpm: f64,
-    /// Friction between the flanks, 0 to 2; torque is judged without
-    #[arg(long, default_value_t = 0.0, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
-    pub(crate) friction: f64,
-    /// Thickness of the gears
-    #[arg(long, default_value = default_length("thickness"), value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
-    pub(crate) thickness: f64,
-    /// Print the verdict as JSON on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

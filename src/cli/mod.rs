@@ -14,6 +14,7 @@ mod mate;
 mod mirror;
 mod motion;
 mod outfit;
+pub mod plan;
 mod presets;
 mod progress;
 mod proof;
@@ -36,6 +37,7 @@ use clap::Parser;
 use clap::error::ErrorKind;
 use std::ffi::OsString;
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 /// Exit code for bad input; nothing was written.
 pub(crate) const BAD_INPUT: u8 = 2;
@@ -52,34 +54,50 @@ pub(crate) enum Outcome {
 }
 
 impl Outcome {
-    pub(crate) fn exit_code(self) -> ExitCode {
+    pub(crate) fn exit_code(self) -> u8 {
         match self {
-            Self::Good => ExitCode::SUCCESS,
-            Self::NotSound => ExitCode::from(NOT_SOUND),
+            Self::Good => 0,
+            Self::NotSound => NOT_SOUND,
         }
     }
 }
 
-/// Parses the command line of this process, carries it out, and reports what failed in one line on standard error.
+/// Carries out the command line of this process; see [`main_of`].
+#[must_use]
+pub fn main() -> ExitCode {
+    ExitCode::from(main_of(std::env::args_os().collect()))
+}
+
+/// Parses a command line, the program's name first, carries it out, and reports what failed in one line on standard error.
+/// A process calls it once: whether it is quiet and the command it writes into its pages are its own.
 ///
 /// Returns 0 when all is well, 1 for a result that was made but is not sound, 2 for bad input.
 #[must_use]
-pub fn main() -> ExitCode {
-    if presets::asked(std::env::args_os()) {
+pub fn main_of(words: Vec<OsString>) -> u8 {
+    let words = WORDS.get_or_init(|| words);
+    if presets::asked(words.iter().cloned()) {
         presets::print();
-        return ExitCode::SUCCESS;
+        return 0;
     }
-    let cli = match Cli::try_parse() {
+    let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(error) => return refused(&error),
     };
-    match run(&cli) {
+    match run(&cli, words) {
         Ok(outcome) => outcome.exit_code(),
         Err(error) => {
             eprintln!("error: {}", plain(&told(&error)));
-            ExitCode::from(BAD_INPUT)
+            BAD_INPUT
         }
     }
+}
+
+/// The command line that this process carries out.
+static WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// The words of this process' command line, the program's name first.
+fn own_words() -> &'static [OsString] {
+    WORDS.get().map(Vec::as_slice).unwrap_or_default()
 }
 
 /// What failed and why, from the outermost to the innermost cause; a cause that has been quoted is not said again.
@@ -95,8 +113,8 @@ pub(crate) fn told(error: &anyhow::Error) -> String {
     })
 }
 
-/// Carries out the command line of this process.
-fn run(cli: &Cli) -> anyhow::Result<Outcome> {
+/// Carries out a command line that was parsed.
+fn run(cli: &Cli, words: &[OsString]) -> anyhow::Result<Outcome> {
     if cli.quiet {
         progress::silence();
     }
@@ -104,8 +122,7 @@ fn run(cli: &Cli) -> anyhow::Result<Outcome> {
     if let Some(count) = cli.threads {
         control = control.with_threads(usize::from(count))?;
     }
-    let words: Vec<OsString> = std::env::args_os().collect();
-    control.run(|| carry_out(cli, &words))
+    control.run(|| carry_out(cli, words))
 }
 
 /// Carries out a command line; `words` is what was parsed into `cli`.
@@ -136,14 +153,14 @@ fn carry_out(cli: &Cli, words: &[OsString]) -> anyhow::Result<Outcome> {
 }
 
 /// Prints what clap has to say; help and version are no errors, errors take one line.
-pub(crate) fn refused(error: &clap::Error) -> ExitCode {
+pub(crate) fn refused(error: &clap::Error) -> u8 {
     if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         // A closed pipe is no reason to fail harder.
         let _ = error.print();
     } else {
         eprintln!("{}", plain(&in_one_line(&error.to_string())));
     }
-    if error.use_stderr() { ExitCode::from(BAD_INPUT) } else { ExitCode::SUCCESS }
+    if error.use_stderr() { BAD_INPUT } else { 0 }
 }
 
 /// One line that steers no terminal and echoes nothing at length, whatever a file name, an option or a library's message

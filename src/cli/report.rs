@@ -214,7 +214,7 @@ pub(crate) fn page(made: &Design, command: String) -> ReportData {
 
 /// The command line of this process, see [`command_line`].
 pub(super) fn own_command_line() -> String {
-    command_line(std::env::args_os().skip(1).map(|w| w.to_string_lossy().into_owned()))
+    command_line(super::own_words().iter().skip(1).map(|w| w.to_string_lossy().into_owned()))
 }
 
 /// The command that makes this again, without the paths of the program and of the folder, which are not

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use anyhow::Context;
+use centrode::control::Control;
 use centrode::diagnose::{Limits, Severity, of_severity, sentences};
 use centrode::export::Staging;
 use centrode::meshing::{
@@ -21,22 +22,8 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
     let saved = SavedDesign::read(&args.design)?;
     let progress = Progress::new();
     progress.doing("working out the contact");
-    let motion = saved.motion().with_context(|| args.design.display().to_string())?;
-    let control = progress.control();
-    let [driver, follower] = &saved.gears;
-    let contact = ContactInput {
-        driver: &driver.outline,
-        follower: &follower.outline,
-        center_distance: saved.center_distance,
-        module: saved.module,
-        motion: &motion,
-        control: &control,
-    };
-    let analysis = analyse(&contact, &ContactOptions::default())?;
-    progress.doing("running the gears");
-    let runs = args.run.runs(saved.thickness, args.cycles);
-    let input = DynamicsInput { contact, driver_teeth: driver.teeth };
-    let report = prove(&input, analysis, &runs, &Limits::default())?;
+    let report = report(args, &saved, &progress.control())
+        .with_context(|| args.design.display().to_string())?;
     progress.doing("writing files");
     let folder = match (args.design.is_dir(), args.design.parent()) {
         (true, _) | (false, None) => args.design.clone(),
@@ -72,6 +59,28 @@ pub(crate) fn run(args: &SimulateArgs) -> anyhow::Result<Outcome> {
         writeln!(out, "{}", lines.join("\n")).context("cannot write to standard output")?;
     }
     Ok(if report.verdict().is_sound() { Outcome::Good } else { Outcome::NotSound })
+}
+
+/// The runs of a saved design, and what they show.
+pub(super) fn report(
+    args: &SimulateArgs,
+    saved: &SavedDesign,
+    control: &Control,
+) -> anyhow::Result<MeshingReport> {
+    let motion = saved.motion()?;
+    let [driver, follower] = &saved.gears;
+    let contact = ContactInput {
+        driver: &driver.outline,
+        follower: &follower.outline,
+        center_distance: saved.center_distance,
+        module: saved.module,
+        motion: &motion,
+        control,
+    };
+    let analysis = analyse(&contact, &ContactOptions::default())?;
+    let runs = args.run.runs(saved.thickness, args.cycles);
+    let input = DynamicsInput { contact, driver_teeth: driver.teeth };
+    Ok(prove(&input, analysis, &runs, &Limits::default())?)
 }
 
 fn page(saved: &SavedDesign, report: &MeshingReport) -> ReportData {

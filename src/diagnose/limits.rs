@@ -93,6 +93,30 @@ impl Limits {
         let made = Some(MadeLimits::default());
         Self { lost_arc: 0.0, overlap: 1e-4, made, ..Self::default() }
     }
+
+    /// Limits as TOML, by their names with hyphens; those left out keep their defaults.
+    ///
+    /// # Errors
+    /// What is wrong, as half a sentence: a name that there is not, or a value that is no number of 0 or more.
+    pub fn from_toml(text: &str) -> Result<Self, String> {
+        let told = |e: toml::de::Error| crate::wording::quoted(e.message());
+        let limits: Self = toml::from_str(text).map_err(told)?;
+        let value = toml::Value::try_from(limits).map_err(|e| e.to_string())?;
+        match bad_number(&value) {
+            None => Ok(limits),
+            Some((name, bad)) => Err(format!("{name} is {bad}; give a number of 0 or more")),
+        }
+    }
+}
+
+/// The first value that limits nothing, with its name.
+fn bad_number(value: &toml::Value) -> Option<(String, f64)> {
+    value.as_table()?.iter().find_map(|(name, value)| match value {
+        toml::Value::Float(number) => {
+            (!number.is_finite() || *number < 0.0).then(|| (name.clone(), *number))
+        }
+        inner => bad_number(inner),
+    })
 }
 
 #[cfg(test)]
@@ -106,5 +130,22 @@ mod tests {
         assert_eq!((read.efficiency, read.overlap), (0.5, Limits::default().overlap));
         assert_eq!(read.made.unwrap().backlash, 0.4);
         assert!(serde_json::from_str::<Limits>(r#"{"eficiency": 0.5}"#).is_err());
+    }
+
+    #[test]
+    fn a_toml_file_is_told_what_is_wrong_in_it() {
+        let read = Limits::from_toml("overlap = 0.02\n[made]\nbacklash = 0.4\n").unwrap();
+        assert_eq!((read.overlap, read.made.unwrap().backlash), (0.02, 0.4));
+        assert_eq!(Limits::from_toml(""), Ok(Limits::default()));
+        for (text, said) in [
+            ("overlp = 1.0", "overlp"),
+            ("overlap = -1.0", "overlap is -1"),
+            ("overlap = nan", "overlap is NaN"),
+            ("[made]\nfriction = inf", "friction is inf"),
+            ("overlap = \"much\"", "string"),
+        ] {
+            let error = Limits::from_toml(text).unwrap_err();
+            assert!(error.contains(said), "{text}: {error}");
+        }
     }
 }

@@ -16,7 +16,8 @@ use zip::write::SimpleFileOptions;
 use super::engine::{Engine, Stopped};
 use super::protocol::{BadMessage, State};
 use super::{App, words};
-use crate::cli::studio::{command_text, plan, scene_text};
+use crate::cli::plan::{command_text, plan};
+use crate::cli::studio::scene_text;
 use centrode::export::Staging;
 
 /// Bytes that the names of all formats wanted may have together.
@@ -101,8 +102,7 @@ fn carried_out(app: &App, order: &Order) -> Result<Response, String> {
     let made = Engine::default()
         .finished((&app.drawings, &app.finished), &order.state, &plan)
         .map_err(said)?;
-    let told = |error: anyhow::Error| crate::cli::told(&error);
-    let (staging, files) = plan.files(&made, &given, &app.output).map_err(told)?;
+    let (staging, files) = plan.files(&made, &given, &app.output).map_err(|b| b.text)?;
     if let Some(wanted) = order.file.as_ref().filter(|_| order.place == Place::Download) {
         let path = files.iter().find(|f| name_of(f) == *wanted);
         let path = path.ok_or_else(|| format!("no format writes {wanted}; choose another"))?;

@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 use super::drawings::{DrawingError, Drawings};
 use super::protocol::{DrawingRef, Remedy, Stage, State, Told};
 use super::{wire, words};
-use crate::cli::studio::{Blamed, Origin, Plan, plan};
+use crate::cli::plan::{Blamed, Origin, Plan, plan};
 
 /// Teeth that a picture is drawn with while their number is still being chosen.
 const TEETH_AT_FIRST: u32 = 40;

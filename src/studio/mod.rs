@@ -74,7 +74,7 @@ pub fn read_message(kind: u8, text: &str) -> Result<(), String> {
     };
     state.check().map_err(said)?;
     let words = words::typed(&state, FOLDER);
-    crate::cli::studio::plan(&words).map_err(|blamed| blamed.text)?;
+    crate::cli::plan::plan(&words).map_err(|blamed| blamed.text)?;
     Ok(())
 }
 

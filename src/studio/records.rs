@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 use super::drawings::Drawings;
 use super::protocol::{DrawingRef, State, Way};
 use super::words;
-use crate::cli::studio::plan;
+use crate::cli::plan::plan;
 
 /// What is read of a record; more stands beside it.
 #[derive(Debug, Deserialize)]

@@ -1,65 +1,155 @@
-//! `centrode check`: a verdict on any two gears.
+//! `centrode check`: a verdict on any two gears, or on a table of pairs.
+
+mod args;
+mod batch;
+mod junit;
 
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use centrode::check::{
     CheckOptions, CheckReport, MotionGiven, check, default_runs, motion_from_columns,
 };
-use centrode::diagnose::{Diagnostic, Severity, of_severity};
+use centrode::control::Control;
+use centrode::diagnose::{Diagnostic, Limits, Severity, of_severity};
 use centrode::gear::Pair;
 use centrode::input::load_gears;
 use centrode::meshing::{Direction, DynamicsOptions};
 use serde::Serialize;
 
+pub(crate) use args::CheckArgs;
+use args::PairFacts;
+
 use super::Outcome;
-use super::args::CheckArgs;
+use super::files::{check_file, told_of};
 use super::progress::Progress;
 
+/// One pair of files to judge.
+#[derive(Clone, Debug)]
+struct Job {
+    driver: String,
+    follower: String,
+    facts: PairFacts,
+}
+
 pub(crate) fn run(args: &CheckArgs) -> anyhow::Result<Outcome> {
+    if let Some(path) = &args.junit {
+        check_file(path).map_err(|e| told_of("--junit", e))?;
+    }
+    if let Some(table) = &args.batch {
+        return batch::run(args, table);
+    }
     let start = Instant::now();
-    let motion = motion(args)?;
-    let defaults = DynamicsOptions::default();
+    let job = job(args)?;
+    let progress = Progress::new();
+    let report = report_of(&job, args, &progress)?;
+    progress.done();
+    let seconds = start.elapsed().as_secs_f64();
+    let text = if args.json { record(&report)? + "\n" } else { human(&report, seconds) };
+    print(&text)?;
+    let outcome = if report.verdict().is_sound() { Outcome::Good } else { Outcome::NotSound };
+    if let Some(path) = &args.junit {
+        let case = Case { driver: job.driver, follower: job.follower, seconds, made: Ok(report) };
+        junit::write(path, &[case])?;
+    }
+    Ok(outcome)
+}
+
+/// The pair that stands on the command line.
+fn job(args: &CheckArgs) -> anyhow::Result<Job> {
+    let (Some(driver), Some(follower)) = (&args.driver, &args.follower) else {
+        bail!("two gears are checked; name the driver and the follower, or a table with --batch");
+    };
+    let facts = args.facts.clone();
+    Ok(Job { driver: driver.clone(), follower: follower.clone(), facts })
+}
+
+fn report_of(job: &Job, args: &CheckArgs, progress: &Progress) -> anyhow::Result<CheckReport> {
+    let options = with_facts(args, &job.facts, progress.control())?;
+    progress.doing("reading the gears");
+    let sources = Pair::new(job.driver.as_str(), job.follower.as_str());
+    let Pair { driver, follower } = load_gears(sources, args.join)?;
+    progress.doing("checking the pair");
+    Ok(check(&driver, &follower, &options)?)
+}
+
+fn print(text: &str) -> anyhow::Result<()> {
+    std::io::stdout()
+        .lock()
+        .write_all(text.as_bytes())
+        .context("cannot write to standard output")
+}
+
+/// One pair and what became of it.
+#[derive(Debug)]
+struct Case {
+    driver: String,
+    follower: String,
+    seconds: f64,
+    /// The report, or why the pair could not be judged.
+    made: Result<CheckReport, String>,
+}
+
+impl Case {
+    fn is_sound(&self) -> bool {
+        self.made.as_ref().is_ok_and(|report| report.verdict().is_sound())
+    }
+}
+
+/// Both gears as files, and how they are checked.
+pub(super) fn plan(
+    args: &CheckArgs,
+    control: Control,
+) -> anyhow::Result<([String; 2], CheckOptions)> {
+    let job = job(args)?;
+    let options = with_facts(args, &job.facts, control)?;
+    Ok(([job.driver, job.follower], options))
+}
+
+/// As the library takes them.
+fn with_facts(
+    args: &CheckArgs,
+    facts: &PairFacts,
+    control: Control,
+) -> anyhow::Result<CheckOptions> {
     let run = DynamicsOptions {
         load: args.load,
         rpm: args.rpm,
         friction: args.friction,
         thickness: args.thickness,
-        ..defaults
+        ..DynamicsOptions::default()
     };
-    let progress = Progress::new();
-    let options = CheckOptions {
-        center_distance: args.center_distance,
-        axes: [args.driver_axis, args.follower_axis],
-        teeth: args.teeth,
-        phase: args.phase,
-        motion,
+    Ok(CheckOptions {
+        center_distance: facts.center_distance,
+        axes: [facts.driver_axis, facts.follower_axis],
+        teeth: facts.teeth,
+        phase: facts.phase,
+        motion: motion(facts)?,
         runs: if args.no_simulate { Vec::new() } else { default_runs(&run, args.both) },
-        control: progress.control(),
+        limits: limits(facts.limits.as_deref())?,
+        control,
         ..CheckOptions::default()
-    };
-    progress.doing("reading the gears");
-    let Pair { driver, follower } =
-        load_gears(Pair::new(args.driver.as_str(), args.follower.as_str()), args.join)?;
-    progress.doing("checking the pair");
-    let report = check(&driver, &follower, &options)?;
-    progress.done();
-    let text =
-        if args.json { json(&report)? } else { human(&report, start.elapsed().as_secs_f64()) };
-    std::io::stdout()
-        .lock()
-        .write_all(text.as_bytes())
-        .context("cannot write to standard output")?;
-    Ok(if report.verdict().is_sound() { Outcome::Good } else { Outcome::NotSound })
+    })
 }
 
-fn motion(args: &CheckArgs) -> anyhow::Result<MotionGiven> {
-    if let Some(ratio) = args.ratio {
+/// Where a pair fails; the defaults where no file is named.
+fn limits(path: Option<&Path>) -> anyhow::Result<Limits> {
+    let Some(path) = path else { return Ok(Limits::default()) };
+    let read = || -> anyhow::Result<Limits> {
+        let text = std::fs::read_to_string(path)
+            .context("the limits cannot be read; give a TOML file such as `overlap = 0.02`")?;
+        Limits::from_toml(&text).map_err(|why| anyhow::anyhow!("{why}; docs/checking.md lists the limits"))
+    };
+    read().with_context(|| path.display().to_string())
+}
+
+fn motion(facts: &PairFacts) -> anyhow::Result<MotionGiven> {
+    if let Some(ratio) = facts.ratio {
         return Ok(MotionGiven::Ratio(ratio));
     }
-    let Some(path) = &args.motion else { return Ok(MotionGiven::Unknown) };
+    let Some(path) = &facts.motion else { return Ok(MotionGiven::Unknown) };
     let (driver, follower) = read_motion(path).with_context(|| path.display().to_string())?;
     Ok(MotionGiven::Sampled { driver, follower })
 }
@@ -175,7 +265,8 @@ struct RunRecord {
     efficiency: f64,
 }
 
-fn json(report: &CheckReport) -> anyhow::Result<String> {
+/// The verdict as JSON, without a line's end.
+pub(super) fn record(report: &CheckReport) -> anyhow::Result<String> {
     let found = |severity| of_severity(&report.diagnostics, severity).collect();
     let intervals = report.psi.len().saturating_sub(1).max(1) as f64;
     let record = Record {
@@ -228,5 +319,5 @@ fn json(report: &CheckReport) -> anyhow::Result<String> {
             .collect(),
         notes: &report.notes,
     };
-    Ok(serde_json::to_string(&record)? + "\n")
+    Ok(serde_json::to_string(&record)?)
 }
