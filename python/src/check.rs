@@ -15,7 +15,7 @@ use crate::{blamed, refused};
 /// The verdict on two gears as `centrode check --json` prints it, and the text of all its findings. `gears` are paths or
 /// arrays with their names, `limits` TOML, `motion` driver and follower angles.
 #[pyfunction]
-#[pyo3(signature = (gears, words, limits=None, motion=None, progress=None, threads=None))]
+#[pyo3(name = "check", signature = (gears, words, limits=None, motion=None, progress=None, threads=None))]
 pub(crate) fn judge(
     py: Python<'_>,
     gears: [(Bound<'_, PyAny>, String); 2],

@@ -226,15 +226,18 @@ impl Design {
         progress: Option<&Bound<'py, PyAny>>,
         threads: Option<usize>,
     ) -> PyResult<(Vec<Bound<'py, PyDict>>, &'static str, String)> {
-        let line: Vec<String> =
-            ["centrode", "simulate", "design.json"].map(str::to_owned).into_iter().chain(words).collect();
+        let line: Vec<String> = ["centrode", "simulate", "design.json"]
+            .map(str::to_owned)
+            .into_iter()
+            .chain(words)
+            .collect();
         let report = watched(py, Watch { progress, threads }, |control| {
             plan::simulated(&line, &self.saved, control)
         })?
         .map_err(blamed)?;
         let runs = report.runs.iter().map(|run| arrays(py, run)).collect::<PyResult<_>>()?;
-        let found = serde_json::to_string(&report.diagnostics)
-            .map_err(|e| refused(None, e.to_string()))?;
+        let found =
+            serde_json::to_string(&report.diagnostics).map_err(|e| refused(None, e.to_string()))?;
         Ok((runs, report.verdict().word(), found))
     }
 }
@@ -246,8 +249,11 @@ impl Design {
         formats: Vec<String>,
     ) -> Result<Vec<PathBuf>, (Option<String>, String)> {
         let told = |text: String| (None, text);
-        let line: Vec<String> =
-            ["centrode", "export", "design.json"].map(str::to_owned).into_iter().chain(formats).collect();
+        let line: Vec<String> = ["centrode", "export", "design.json"]
+            .map(str::to_owned)
+            .into_iter()
+            .chain(formats)
+            .collect();
         let wanted = plan::wanted(&line).map_err(|b| (b.option, b.text))?;
         let assembly = self.saved.assembly();
         let meshes = assembly_solids(&assembly).map_err(|e| told(e.to_string()))?;

@@ -120,8 +120,8 @@ pub fn check_plan(words: &[String]) -> Result<CheckPlan, Blamed> {
     let Command::Check(args) = parsed(words)?.command else {
         return Err(Blamed::without_option("this command judges no gears"));
     };
-    let (gears, options) = check::plan(&args, Control::new())
-        .map_err(|e| Blamed::without_option(super::told(&e)))?;
+    let (gears, options) =
+        check::plan(&args, Control::new()).map_err(|e| Blamed::without_option(super::told(&e)))?;
     Ok(CheckPlan { gears, join: args.join, options })
 }
 

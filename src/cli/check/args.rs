@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use centrode::geometry::Point;
-use centrode::policy;
+use centrode::schema::{default_length, default_text};
 use clap::{Args, ValueHint};
 
 use super::super::units;
@@ -32,16 +32,16 @@ pub(crate) struct CheckArgs {
     #[arg(long, conflicts_with = "no_simulate")]
     pub(crate) both: bool,
     /// Torque that holds the follower back, N mm
-    #[arg(long, default_value_t = policy::DEFAULT_LOAD, value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("load"), value_name = "NMM", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) load: f64,
     /// Speed of the driver, turns a minute
-    #[arg(long, default_value_t = policy::DEFAULT_RPM, value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_text("rpm"), value_name = "RPM", value_parser = units::positive, allow_hyphen_values = true)]
     pub(crate) rpm: f64,
     /// Friction between the flanks, 0 to 2; torque is judged without
     #[arg(long, default_value_t = 0.0, value_name = "MU", value_parser = units::zero_or_more, allow_hyphen_values = true)]
     pub(crate) friction: f64,
     /// Thickness of the gears
-    #[arg(long, default_value = "8mm", value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    #[arg(long, default_value = default_length("thickness"), value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
     pub(crate) thickness: f64,
     /// Print the verdict as JSON on standard output
     #[arg(long)]

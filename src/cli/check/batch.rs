@@ -54,7 +54,8 @@ pub(super) fn run(args: &CheckArgs, table: &Path) -> anyhow::Result<Outcome> {
 }
 
 fn jobs(args: &CheckArgs, table: &Path) -> anyhow::Result<Vec<Job>> {
-    let length = std::fs::metadata(table).context("the table cannot be read; check the path")?.len();
+    let length =
+        std::fs::metadata(table).context("the table cannot be read; check the path")?.len();
     ensure!(length <= TABLE_BYTES, "the table has more than {TABLE_BYTES} bytes; split it");
     let text = std::fs::read_to_string(table)
         .context("the table cannot be read; give a text file with a row for each pair")?;
@@ -167,7 +168,8 @@ fn human(cases: &[Case]) -> String {
             Err(why) => text += &format!("not judged: {pair}: {why}\n"),
             Ok(report) => {
                 text += &format!("{}: {pair}\n", report.verdict().label());
-                for (severity, word) in [(Severity::Fault, "fault"), (Severity::Warning, "warning")] {
+                for (severity, word) in [(Severity::Fault, "fault"), (Severity::Warning, "warning")]
+                {
                     for found in of_severity(&report.diagnostics, severity) {
                         text += &format!("  {word}: {found}\n");
                     }
@@ -216,7 +218,8 @@ mod tests {
         assert_eq!(Path::new(&job.follower), Path::new("gears").join("b;1.csv"));
         assert_eq!(job.facts.center_distance, Some(72.0));
         assert_eq!(job.facts.driver_axis, Some(centrode::geometry::Point::new(1.0, -2.0)));
-        let given = PairFacts { ratio: Some(2.0), center_distance: Some(1.0), ..PairFacts::default() };
+        let given =
+            PairFacts { ratio: Some(2.0), center_distance: Some(1.0), ..PairFacts::default() };
         let facts = job.facts.clone().or(&given);
         assert_eq!((facts.ratio, facts.center_distance), (Some(2.0), Some(72.0)));
     }

@@ -33,8 +33,10 @@ fn text(cases: &[Case]) -> Result<String, std::fmt::Error> {
     )?;
     for case in cases {
         let name = escaped(&format!("{} and {}", case.driver, case.follower));
-        let open =
-            format!(r#"<testcase classname="centrode.check" name="{name}" time="{:.3}">"#, case.seconds);
+        let open = format!(
+            r#"<testcase classname="centrode.check" name="{name}" time="{:.3}">"#,
+            case.seconds
+        );
         writeln!(xml, "{open}")?;
         match &case.made {
             Err(why) => writeln!(xml, r#"<error message="{0}">{0}</error>"#, escaped(why))?,

@@ -76,10 +76,7 @@ fn report_of(job: &Job, args: &CheckArgs, progress: &Progress) -> anyhow::Result
 }
 
 fn print(text: &str) -> anyhow::Result<()> {
-    std::io::stdout()
-        .lock()
-        .write_all(text.as_bytes())
-        .context("cannot write to standard output")
+    std::io::stdout().lock().write_all(text.as_bytes()).context("cannot write to standard output")
 }
 
 /// One pair and what became of it.
@@ -140,7 +137,8 @@ fn limits(path: Option<&Path>) -> anyhow::Result<Limits> {
     let read = || -> anyhow::Result<Limits> {
         let text = std::fs::read_to_string(path)
             .context("the limits cannot be read; give a TOML file such as `overlap = 0.02`")?;
-        Limits::from_toml(&text).map_err(|why| anyhow::anyhow!("{why}; docs/checking.md lists the limits"))
+        Limits::from_toml(&text)
+            .map_err(|why| anyhow::anyhow!("{why}; docs/python.md lists the limits"))
     };
     read().with_context(|| path.display().to_string())
 }
