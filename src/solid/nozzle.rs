@@ -251,11 +251,9 @@ fn lost(ring: &[Point], tool: f64, allowed: f64) -> Option<Lost> {
         let ring = [ring.to_vec()];
         drawn.iter().flat_map(|filled| geometry::difference(filled, &ring)).collect()
     };
+    let edges = super::wall::Edges::new(&drawn);
     let far = |piece: &geometry::Face| {
-        let depth = |p: &Point| {
-            let to = drawn.iter().map(|d| super::wall::distance_to(d, *p));
-            (to.fold(f64::INFINITY, f64::min), *p)
-        };
+        let depth = |p: &Point| (edges.distance_to(*p), *p);
         piece[0].iter().map(depth).max_by(|a, b| a.0.total_cmp(&b.0))
     };
     let deep: Vec<(f64, Point)> =

@@ -2,6 +2,9 @@
 
 use super::SolidError;
 use crate::geometry::{self, Point, cross};
+use parry2d_f64::math::Vector;
+use parry2d_f64::query::PointQuery;
+use parry2d_f64::shape::Polyline;
 
 /// Passes a bore that leaves at least `wall` (mm) of material up to `outline` everywhere.
 ///
@@ -28,6 +31,27 @@ pub fn fits(outline: &[Point], bore: &[Point], wall: f64) -> Result<(), SolidErr
 
 fn edges(ring: &[Point]) -> impl Iterator<Item = (Point, Point)> {
     ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
+}
+
+/// The edges of rings, kept so that each of many points is measured in little time.
+pub(super) struct Edges(Option<Polyline>);
+
+impl Edges {
+    pub(super) fn new(rings: &[Vec<Point>]) -> Self {
+        let corners = rings.iter().flatten().map(|p| Vector::new(p.x, p.y)).collect();
+        let mut ends = Vec::new();
+        for ring in rings {
+            let (first, count) = (ends.len() as u32, ring.len() as u32);
+            ends.extend((0..count).map(|i| [first + i, first + (i + 1) % count]));
+        }
+        Self((!ends.is_empty()).then(|| Polyline::new(corners, Some(ends))))
+    }
+
+    /// Distance of a point to the nearest edge, mm; infinite without any.
+    pub(super) fn distance_to(&self, p: Point) -> f64 {
+        let nearest = |line: &Polyline| line.distance_to_local_point(Vector::new(p.x, p.y), true);
+        self.0.as_ref().map_or(f64::INFINITY, nearest)
+    }
 }
 
 pub(super) fn distance_to(ring: &[Point], p: Point) -> f64 {
@@ -79,6 +103,19 @@ mod tests {
     use crate::geometry::Vector;
 
     const TOLERANCE: f64 = 0.005;
+
+    #[test]
+    fn kept_edges_measure_as_each_edge_does() {
+        let rings = [circle(10.0, 0.01), circle(4.0, 0.1)];
+        let edges = Edges::new(&rings);
+        for i in 0..200 {
+            let (r, a) = (0.07 * f64::from(i), 2.4 * f64::from(i));
+            let p = Point::new(r * a.cos(), r * a.sin());
+            let each = rings.iter().map(|ring| distance_to(ring, p)).fold(f64::INFINITY, f64::min);
+            assert!((edges.distance_to(p) - each).abs() < 1e-12, "{p}");
+        }
+        assert_eq!(Edges::new(&[]).distance_to(Point::origin()), f64::INFINITY);
+    }
 
     #[test]
     fn the_wall_decides_what_fits() {
