@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::difference::Outlined;
 use super::global_search::{self, Found, KEPT_CANDIDATES};
 use super::grid::GRID_CENTERS;
-use super::objective::Problem;
+use super::objective::{Candidate, Problem};
 use super::polish::{self, Plan};
 use super::scan::Scan;
 use super::{
@@ -148,6 +148,16 @@ impl Fitter {
         }
         // Impossible limits should be said at once, not found in every candidate.
         apply(&[1.0; policy::MIN_TRANSMISSION_SAMPLES], problem.folds(), &options.limits)?;
+        if let Fixed {
+            driver_axis: Some(driver),
+            follower_axis: Some(follower),
+            orientation: Some(_),
+        } = options.fixed
+        {
+            // Nothing is left to search for.
+            let only = Candidate { driver, follower, shift: 0.0 };
+            return placement::place(&problem, &only, 1).map(|fit| vec![fit]);
+        }
         let plan = Plan::new(options.effort, count, options.search == Search::Coarse);
         let wanted = KEPT_CANDIDATES.max(CANDIDATES_PER_ALTERNATIVE * count).max(plan.candidates);
         let found = match options.search {

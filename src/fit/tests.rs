@@ -231,6 +231,24 @@ fn alternatives_differ_and_are_ranked_and_chosen() {
 }
 
 #[test]
+fn a_fit_with_everything_fixed_is_found_without_a_search() {
+    let options = quick(Search::Global);
+    let free = fit(&egg(), &square(), Ratio::ONE, &options, Control::unwatched()).unwrap();
+    let fixed = Fixed {
+        driver_axis: Some(free.driver.center_in_input),
+        follower_axis: Some(free.follower.center_in_input),
+        orientation: Some(free.follower.placement.angle),
+    };
+    let held = FitOptions { fixed, ..options };
+    let held = fit(&egg(), &square(), Ratio::ONE, &held, Control::unwatched()).unwrap();
+    assert_eq!(held.pairs_scored, 1);
+    assert!((held.follower.placement.angle - free.follower.placement.angle).abs() < 1e-3);
+    for (a, b) in [(&held.driver, &free.driver), (&held.follower, &free.follower)] {
+        assert!((a.iou - b.iou).abs() < 0.01, "{} and {}", a.iou, b.iou);
+    }
+}
+
+#[test]
 fn a_fitter_that_knows_the_shapes_gives_the_same() {
     let mut fitter = Fitter::default();
     for (balance, search) in [(0.5, Search::Coarse), (0.2, Search::Global), (0.8, Search::Global)] {

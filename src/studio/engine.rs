@@ -368,18 +368,28 @@ impl Engine {
                     .filter(|k| {
                         k.drawings == drawings && k.load == plan.load && k.ratio == options.ratio
                     })
-                    .map(|k| [k.fit.driver.center_in_input, k.fit.follower.center_in_input]);
+                    .map(|k| (k.fit.driver, k.fit.follower));
+                // While something is dragged the follower's drawing keeps its turn: the gears follow the hand.
+                let turn = last.filter(|_| live && !options.fit.symmetric);
+                let orientation =
+                    options.fit.fixed.orientation.or(turn.map(|(_, f)| f.placement.angle));
                 let all_fixed = options.fit.fixed.driver_axis.is_some()
                     && options.fit.fixed.follower_axis.is_some();
                 if !all_fixed {
                     let coarse = FitOptions { refine: false, choose: None, ..options.fit.clone() };
                     let coarse = match last {
                         // Where the axes are now is where they stay while something is dragged.
-                        Some([driver, follower]) if !coarse.symmetric => FitOptions {
+                        Some((driver, follower)) if !coarse.symmetric => FitOptions {
                             fixed: Fixed {
-                                driver_axis: coarse.fixed.driver_axis.or(Some(driver)),
-                                follower_axis: coarse.fixed.follower_axis.or(Some(follower)),
-                                ..coarse.fixed
+                                driver_axis: coarse
+                                    .fixed
+                                    .driver_axis
+                                    .or(Some(driver.center_in_input)),
+                                follower_axis: coarse
+                                    .fixed
+                                    .follower_axis
+                                    .or(Some(follower.center_in_input)),
+                                orientation,
                             },
                             ..coarse
                         },
@@ -399,7 +409,9 @@ impl Engine {
                     }
                 }
                 if live {
-                    let held = FitOptions { refine: false, choose: None, ..options.fit.clone() };
+                    let fixed = Fixed { orientation, ..options.fit.fixed };
+                    let held =
+                        FitOptions { refine: false, choose: None, fixed, ..options.fit.clone() };
                     let (ratio, fitter) = (options.ratio, &mut self.fitter);
                     let fit =
                         fitter.fit(&driver.outline, &follower.outline, ratio, &held, control)?;

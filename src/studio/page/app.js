@@ -44,7 +44,7 @@ const start = async () => {
   const alternatives = new Alternatives(store, transport);
   const tabs = new Tabs(stage, transport, store);
   const findings = new Findings({
-    onGo: ({ angle }) => { tabs.open("pair"); transport.play(false); transport.goTo(angle); stage.toMesh(); },
+    onGo: ({ angle }) => { tabs.open("pair"); transport.play(false); transport.goTo(angle); stage.toMesh(); stage.node.parentNode.scrollIntoView({ block: "nearest" }); },
     onRemedy: ({ option, value }) => store.setOption(option, value),
   });
   const change = (side) => pick(side, begin.shapes, store.state[side], (drawing) => place([side === "driver" ? drawing : null, side === "follower" ? drawing : null]));
