@@ -56,7 +56,7 @@ pub enum InputError {
     },
     /// Neither content nor extension tell what the file is, or it is something that is not read.
     #[error(
-        "{path}: this is {what}; use SVG, DXF, points as CSV or JSON, STL, OBJ, or for a silhouette PNG, JPEG, TIFF or BMP"
+        "{path}: this is {what}; use SVG, DXF, points as CSV or JSON, STL, OBJ, or for a silhouette PNG, JPEG, TIFF, BMP or WebP"
     )]
     Unrecognised {
         /// The path as given.

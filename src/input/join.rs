@@ -44,7 +44,7 @@ pub(super) fn joined(
     let (mut closed, open): (Vec<_>, Vec<_>) = pieces.into_iter().partition(|p| p.closed);
     let mut tests = 0;
     let mut joints = Joints { tolerance, ..Joints::default() };
-    let mut open = once(open, exact);
+    let mut open = once(parted(open, exact, &mut tests), exact);
     for gap in [exact, tolerance.max(exact)] {
         // What leads nowhere would lead the walk astray, so it waits until the rings are found.
         let (kept, dangling) = without_dead_ends(open, gap, &mut tests)?;
@@ -61,6 +61,70 @@ pub(super) fn joined(
     closed.extend(open);
     Some((closed, joints))
 }
+
+/// Pieces whose straight lines are cut where lines that lie upon them end: what overlaps is then drawn twice, and counts once.
+/// A drawing with too many lines on one another stays as it is.
+fn parted(pieces: Vec<Contour>, exact: f64, tests: &mut usize) -> Vec<Contour> {
+    let exact = exact.max(f64::MIN_POSITIVE);
+    let ends = |c: &Contour| match c.points[..] {
+        [a, b] if (b - a).norm() > exact => Some((a, b)),
+        _ => None,
+    };
+    let straight: Vec<(Point, Point)> = pieces.iter().filter_map(ends).collect();
+    let middle = straight.iter().fold(Vector::zeros(), |sum, (a, b)| sum + a.coords + b.coords)
+        / (2 * straight.len().max(1)) as f64;
+    let reach = straight.iter().map(|(a, _)| (a.coords - middle).norm()).fold(exact, f64::max);
+    let step = LINE_STEP * reach;
+    let keys = |a: Point, b: Point| {
+        let along = b - a;
+        let angle = along.y.atan2(along.x).rem_euclid(std::f64::consts::PI);
+        let offset = cross(Vector::new(angle.cos(), angle.sin()), a.coords - middle);
+        let turned = angle - std::f64::consts::PI;
+        [(angle, offset), (turned, -offset)]
+            .map(|(a, o)| ((a / LINE_STEP).round() as i64, (o / step).round() as i64))
+    };
+    let mut on: HashMap<(i64, i64), Vec<(Point, Point)>> = HashMap::new();
+    for &(a, b) in &straight {
+        for key in keys(a, b) {
+            on.entry(key).or_default().push((a, b));
+        }
+    }
+    let mut made = Vec::with_capacity(pieces.len());
+    for piece in &pieces {
+        let Some((a, b)) = ends(piece) else {
+            made.push(piece.clone());
+            continue;
+        };
+        let (length, unit) = ((b - a).norm(), (b - a).normalize());
+        let mut cuts = vec![0.0, length];
+        let (turn, offset) = keys(a, b)[0];
+        for key in (-1..=1).flat_map(|t| (-1..=1).map(move |o| (turn + t, offset + o))) {
+            let others = on.get(&key).map_or(&[][..], Vec::as_slice);
+            *tests += others.len();
+            if *tests > TESTS / 2 {
+                *tests = 0;
+                return pieces;
+            }
+            for &(p, q) in others {
+                let [u, v] = [p, q].map(|p| unit.dot(&(p - a)));
+                let beside = [p, q].iter().all(|&p| cross(unit, p - a).abs() <= exact);
+                if beside && u.min(v) < length - exact && u.max(v) > exact {
+                    cuts.extend([u, v].iter().filter(|w| **w > exact && **w < length - exact));
+                }
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup_by(|b, a| *b - *a <= exact);
+        for ends in cuts.windows(2) {
+            let at = |w: f64| if w >= length - exact { b } else { a + w * unit };
+            made.push(Contour { points: ends.iter().map(|w| at(*w)).collect(), ..piece.clone() });
+        }
+    }
+    made
+}
+
+/// Directions (radians) and offsets (over the size of the drawing) of lines this close are compared.
+const LINE_STEP: f64 = 1e-4;
 
 /// Pieces without those that are drawn again.
 fn once(pieces: Vec<Contour>, exact: f64) -> Vec<Contour> {
@@ -317,6 +381,27 @@ mod tests {
         let rings: Vec<&Contour> = made.iter().filter(|c| c.closed).collect();
         assert_eq!((rings.len(), made.len(), joints.places), (1, 2, 0));
         assert!((geometry::area(&rings[0].points) - 16.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn lines_that_lie_upon_one_another_in_part_count_once() {
+        let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
+        for turn in [0.0, 0.3, 1.5707, 3.1] {
+            let at = |(x, y): (f64, f64)| (x * f64::cos(turn) - y * f64::sin(turn), x * f64::sin(turn) + y * f64::cos(turn));
+            let mut pieces = Vec::new();
+            for i in 0..4 {
+                let (a, b) = (square[i], square[(i + 1) % 4]);
+                let between = |t: f64| (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1));
+                pieces.push(piece(&[at(a), at(between(0.7))]));
+                pieces.push(piece(&[at(b), at(between(0.4))]));
+            }
+            // A line of construction along one side and beyond.
+            pieces.push(piece(&[at((-3.0, 0.0)), at((9.0, 0.0))]));
+            let (made, joints) = joined(pieces, 10.0, 0.01).unwrap();
+            let rings: Vec<&Contour> = made.iter().filter(|c| c.closed).collect();
+            assert_eq!((rings.len(), joints.places), (1, 0), "{turn}");
+            assert!((geometry::area(&rings[0].points) - 16.0).abs() < 1e-9);
+        }
     }
 
     #[test]

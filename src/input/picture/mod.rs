@@ -1,6 +1,7 @@
 //! Outlines from silhouette images.
 
 mod contour;
+mod light;
 
 use super::note::Note;
 use crate::geometry::Point;
@@ -16,8 +17,8 @@ use std::io::Cursor;
 /// Why an image gives no outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ImageError {
-    /// Not a PNG, JPEG, TIFF or BMP image.
-    #[error("it is not a PNG, JPEG, TIFF or BMP image; convert it to PNG")]
+    /// Not a PNG, JPEG, TIFF, BMP or WebP image.
+    #[error("it is not a PNG, JPEG, TIFF, BMP or WebP image; convert it to PNG")]
     NotAnImage,
     /// The image file is damaged or of an unknown kind.
     #[error("the image cannot be decoded ({reason}); save it again as PNG")]
@@ -65,7 +66,7 @@ pub enum ImageError {
     Outline(#[from] OutlineError),
 }
 
-/// Reads the largest silhouette of a PNG, JPEG, TIFF or BMP image, with its holes filled.
+/// Reads the largest silhouette of a PNG, JPEG, TIFF, BMP or WebP image, with its holes filled.
 ///
 /// Where a share of [`policy::IMAGE_CLEAR_SHARE`] or more is transparent (less than half as opaque as the most opaque pixel),
 /// what is opaque is the shape; only if the whole border is opaque, as around a stencil, is it the hole. A picture whose
@@ -96,9 +97,11 @@ pub(super) fn shape(
     if light.saturating_sub(dark) < policy::IMAGE_CONTRAST {
         return Err(ImageError::OneColour);
     }
-    let level = match threshold {
-        Some(value) => f64::from(value) - 0.5,
-        None => clear_level.unwrap_or_else(|| otsu(&grey.histogram())),
+    let mut notes = Vec::new();
+    let (grey, level) = match (threshold, clear_level) {
+        (Some(value), _) => (grey, f64::from(value) - 0.5),
+        (None, Some(level)) => (grey, level),
+        (None, None) => thresholded(grey, &mut notes),
     };
     let mut field = grey.averaged(level);
     let reversed = match clear_level {
@@ -113,9 +116,72 @@ pub(super) fn shape(
         Some(threshold) => ImageError::NoShape { threshold },
         None => ImageError::OnlySpecks { pixels: policy::IMAGE_SHAPE_PIXELS },
     })?;
+    if clear_level.is_none()
+        && cut_by_border(&contour, field.covered_width(), f64::from(grey.height) / scale)
+    {
+        notes.push(Note::CutByBorder);
+    }
     let height = f64::from(grey.height);
     let points = contour.iter().map(|p| Point::new(scale * p.x, height - scale * p.y)).collect();
-    Ok((repaired(points)?, Vec::new()))
+    Ok((repaired(points)?, notes))
+}
+
+/// The picture and the brightness that separates shape from ground in it: with the light on its ground taken out where that
+/// is uneven and helps.
+fn thresholded(grey: Samples, notes: &mut Vec<Note>) -> (Samples, f64) {
+    let plain = otsu(&grey.histogram());
+    let doubt = undecided(&grey.histogram(), plain);
+    let contrast = f64::from(grey.range().1 - grey.range().0);
+    if let Some((even, variation)) = light::evened(&grey) {
+        let level = otsu(&even.histogram());
+        let left = undecided(&even.histogram(), level);
+        let clearer = doubt > DOUBT && left < 0.5 * doubt;
+        if clearer || (variation > UNEVEN * contrast && left <= doubt) {
+            notes.push(Note::Uneven);
+            if left > DOUBT {
+                notes.push(Note::Faint);
+            }
+            return (even, level);
+        }
+    }
+    if doubt > DOUBT {
+        notes.push(Note::Faint);
+    }
+    (grey, plain)
+}
+
+/// Share of the pixels near the threshold from which on a picture has no valley there: grey edges alone have less.
+const DOUBT: f64 = 0.04;
+/// Width of the band about the threshold, each side, over the distance of the mean of the shape from that of the ground.
+const DOUBT_BAND: f64 = 0.1;
+/// Variation of the light on the ground, over the contrast of the picture, from which on it is uneven.
+const UNEVEN: f64 = 0.25;
+/// Part of the contour along one side of the picture that counts as cut off, over the size of the shape, and over the square
+/// root of that size in pixels: a round shape that only touches the side lies within half a pixel of it for two of these.
+const CUT: (f64, f64) = (0.05, 4.0);
+
+/// Share of the pixels whose brightness is near the threshold.
+fn undecided(histogram: &[u64; 256], level: f64) -> f64 {
+    let mean = |dark: bool| {
+        let of = histogram.iter().enumerate().filter(|(v, _)| ((*v as f64) < level) == dark);
+        let (sum, count) = of.fold((0.0, 0_u64), |(s, c), (v, n)| (s + (v as f64) * *n as f64, c + n));
+        sum / count.max(1) as f64
+    };
+    let band = DOUBT_BAND * (mean(false) - mean(true));
+    let near = histogram.iter().enumerate().filter(|(v, _)| (*v as f64 - level).abs() <= band);
+    near.map(|(_, n)| *n).sum::<u64>() as f64 / histogram.iter().sum::<u64>().max(1) as f64
+}
+
+/// Whether the contour, in pixels, runs along a side of the picture rather than touching it.
+fn cut_by_border(contour: &[Point], width: f64, height: f64) -> bool {
+    let (low, high) = crate::geometry::bounds(contour);
+    let size = (high - low).max();
+    let least = (CUT.0 * size).max(CUT.1 * size.sqrt());
+    let at = |p: &Point| [p.x < 0.5, p.x > width - 0.5, p.y < 0.5, p.y > height - 0.5];
+    (0..4).any(|side| {
+        let along = contour.windows(2).filter(|w| at(&w[0])[side] && at(&w[1])[side]);
+        along.map(|w| (w[1] - w[0]).norm()).sum::<f64>() > least
+    })
 }
 
 fn decoded(bytes: &[u8]) -> Result<DynamicImage, ImageError> {

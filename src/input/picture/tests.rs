@@ -44,8 +44,8 @@ fn a_black_and_white_disc_is_found_without_stairs() {
 
 #[test]
 fn every_format_and_an_alpha_channel_give_the_disc() {
-    use ImageFormat::{Bmp, Jpeg, Png, Tiff};
-    for format in [Png, Jpeg, Tiff, Bmp] {
+    use ImageFormat::{Bmp, Jpeg, Png, Tiff, WebP};
+    for format in [Png, Jpeg, Tiff, Bmp, WebP] {
         let colour = DynamicImage::from(disc(10, 240)).to_rgb8();
         assert_is_the_disc(&from_image(&encoded(colour, format), None).unwrap(), 0.3);
     }
@@ -215,4 +215,49 @@ fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |c, _| (c >> 1) ^ (0xedb8_8320 & (c & 1).wrapping_neg()))
     })
+}
+
+/// A disc of brightness 60, in the light that `light` (0 to 1) throws on it and its ground of 230, with some noise.
+fn lit(light: impl Fn(f64, f64) -> f64) -> Vec<u8> {
+    let mask = disc(60, 230);
+    let picture = GrayImage::from_fn(120, 100, |x, y| {
+        let noise = f64::from((x * 7919 + y * 104_729) % 7) - 3.0;
+        let even = f64::from(mask.get_pixel(x, y)[0]);
+        Luma([(even * light(f64::from(x) / 119.0, f64::from(y) / 99.0) + noise) as u8])
+    });
+    encoded(picture, ImageFormat::Png)
+}
+
+#[test]
+fn light_that_falls_off_is_taken_out_and_said() {
+    let (outline, notes) = shape(&lit(|_, _| 1.0), None).unwrap();
+    assert_is_the_disc(&outline, 0.4);
+    assert_eq!(notes, []);
+    for light in [
+        |x: f64, _: f64| 1.0 - 0.75 * x,
+        |x: f64, y: f64| 1.0 - 0.35 * x - 0.35 * y,
+        |x: f64, y: f64| 1.0 - 0.7 * (x * x + y * y) / 2.0,
+    ] {
+        let (outline, notes) = shape(&lit(light), None).unwrap();
+        assert_is_the_disc(&outline, 1.0);
+        assert!(notes.contains(&Note::Uneven), "{notes:?}");
+    }
+}
+
+#[test]
+fn a_picture_without_a_valley_or_cut_by_its_border_is_doubted() {
+    let ramp = GrayImage::from_fn(120, 100, |x, y| {
+        let (dx, dy) = (f64::from(x) - 60.0, f64::from(y) - 50.0);
+        Luma([(4.0 * dx.hypot(dy)).min(255.0) as u8])
+    });
+    let (_, notes) = shape(&encoded(ramp, ImageFormat::Png), None).unwrap();
+    assert!(notes.contains(&Note::Faint), "{notes:?}");
+    let cut = |left: u32| {
+        let picture = GrayImage::from_fn(200, 200, |x, y| {
+            let (dx, dy) = (f64::from(x + left) + 0.5 - 100.0, f64::from(y) + 0.5 - 100.0);
+            Luma([if dx.hypot(dy) < 100.0 { 0 } else { 255 }])
+        });
+        shape(&encoded(picture, ImageFormat::Png), None).unwrap().1
+    };
+    assert_eq!((cut(0), cut(60)), (vec![], vec![Note::CutByBorder]));
 }

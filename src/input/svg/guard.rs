@@ -8,18 +8,68 @@ use std::collections::HashMap;
 use usvg::roxmltree::{Document, Error, Node, NodeId, ParsingOptions};
 
 /// Style forced on every drawing. It switches off what is not part of a silhouette and can
-/// multiply in ways that the count below does not see: markers, filters, paint inside of patterns, and clip paths and masks
-/// where a style sheet may give them to any number of elements.
+/// multiply in ways that the count below does not see: markers, filters, paint inside of patterns, and, where a style sheet
+/// gives clip paths or masks to any number of elements, those within other clip paths and masks.
 pub(super) fn style(document: &Document<'_>) -> String {
     let mut style = "* { marker: none !important; filter: none !important } \
         pattern * { fill: black !important } pattern use { display: none !important }"
         .to_owned();
-    let mut sheets = document.descendants().filter(|n| n.tag_name().name() == "style");
-    if sheets.any(|n| n.text().is_some_and(|t| t.contains("clip-path") || t.contains("mask"))) {
-        style += " * { clip-path: none !important; mask: none !important }";
+    if !covers_of_sheets(document).is_empty() {
+        style += " clipPath, clipPath *, mask, mask * { clip-path: none !important; mask: none !important }";
     }
     style
 }
+
+/// Ids of clip paths and masks that style sheets hand out.
+fn covers_of_sheets<'a>(document: &'a Document<'_>) -> Vec<&'a str> {
+    let sheets = document.descendants().filter(|n| n.tag_name().name() == "style");
+    let texts = sheets.filter_map(|n| n.text());
+    let mut ids: Vec<&str> = texts.flat_map(cover_values).filter_map(link).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids
+}
+
+/// Values of `clip-path` and `mask` in CSS text.
+fn cover_values(css: &str) -> Vec<&str> {
+    ["clip-path", "mask"]
+        .into_iter()
+        .flat_map(|name| css.split(name).skip(1))
+        .filter_map(|rest| rest.trim_start().strip_prefix(':'))
+        .filter_map(|rest| rest.split([';', '}']).next())
+        .map(|value| value.trim().trim_end_matches("!important").trim_end())
+        .collect()
+}
+
+/// The id that `url(#id)` refers to.
+fn link(value: &str) -> Option<&str> {
+    value.strip_prefix("url(")?.split(')').next()?.trim_matches(['"', '\'', ' ']).strip_prefix('#')
+}
+
+/// Refuses covers that would not be applied: shapes that CSS alone draws, and covers of style sheets that hold a `use`, which
+/// could lead back to them.
+fn refuse_unread_covers(document: &Document<'_>) -> Result<(), SvgError> {
+    let named = |names: &'static [&'static str]| {
+        document.descendants().filter(move |n| names.contains(&n.tag_name().name()))
+    };
+    let attributes = document.descendants().filter_map(|n| n.attribute("clip-path"));
+    let css = document.descendants().filter_map(|n| n.attribute("style"));
+    let values = css.chain(named(&["style"]).filter_map(|n| n.text())).flat_map(cover_values);
+    let drawn = |v: &&str| SHAPES.iter().any(|shape| v.trim().starts_with(shape));
+    if let Some(value) = values.chain(attributes).find(drawn) {
+        return Err(SvgError::Cover { value: quoted(value) });
+    }
+    let is_use = |n: Node| n.tag_name().name() == "use";
+    match covers_of_sheets(document).first() {
+        Some(id) if named(&["clipPath", "mask"]).any(|n| n.descendants().any(is_use)) => {
+            Err(SvgError::Cover { value: quoted(&format!("url(#{id})")) })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What begins a clip path that CSS draws itself.
+const SHAPES: [&str; 6] = ["circle(", "ellipse(", "inset(", "polygon(", "path(", "rect("];
 
 /// Parses the XML and refuses drawings whose expansion would be too large, deep or endless.
 pub(super) fn checked(text: &str) -> Result<Document<'_>, SvgError> {
@@ -45,6 +95,15 @@ pub(super) fn checked(text: &str) -> Result<Document<'_>, SvgError> {
     let ids = document.descendants().rev().filter_map(|n| Some((n.attribute("id")?, n))).collect();
     let mut counter = Counter { ids, known: HashMap::new() };
     let size = counter.expanded(root, 0)?;
+    // Every element may have each of the covers that style sheets hand out.
+    let mut covers = 1_u64;
+    for id in covers_of_sheets(&document) {
+        if let Some(target) = counter.ids.get(id).copied() {
+            covers = covers.saturating_add(counter.expanded(target, 0)?.elements);
+        }
+    }
+    let size = Expansion { elements: size.elements.saturating_mul(covers), ..size };
+    refuse_unread_covers(&document)?;
     let rules = style_rules(&document);
     if size.elements > policy::SVG_ELEMENTS
         || size.path_bytes > policy::SVG_PATH_BYTES
@@ -180,9 +239,7 @@ impl<'a, 'input> Counter<'a, 'input> {
     fn covers(&self, node: Node<'a, 'input>) -> Vec<Node<'a, 'input>> {
         let values =
             ["clip-path", "mask", "style"].into_iter().filter_map(|name| node.attribute(name));
-        let links = values.flat_map(|v| v.split("url(").skip(1));
-        let ids = links
-            .filter_map(|l| l.split(')').next()?.trim_matches(['"', '\'', ' ']).strip_prefix('#'));
+        let ids = values.flat_map(|v| v.match_indices("url(").filter_map(|(at, _)| link(&v[at..])));
         let targets = ids.filter_map(|id| self.ids.get(id).copied());
         targets.filter(|n| matches!(n.tag_name().name(), "clipPath" | "mask")).collect()
     }

@@ -95,6 +95,12 @@ pub enum SvgError {
         /// The least that is read.
         least: f64,
     },
+    /// A clip path that is not applied.
+    #[error("its clip path or mask `{value}` is given by CSS in a way that is not read; give the element a clip-path=\"url(#...)\" without `use` in it")]
+    Cover {
+        /// Its value.
+        value: String,
+    },
     /// Path data that breaks off, so that nothing is drawn.
     #[error("its path data `{text}` cannot be read; correct it, or save the drawing again")]
     PathData {

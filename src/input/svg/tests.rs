@@ -57,6 +57,27 @@ fn the_largest_filled_path_wins_and_strokes_do_not_count() {
 }
 
 #[test]
+fn clip_paths_of_style_sheets_apply_and_shapes_of_css_are_refused() {
+    let shape = r##"<rect class="c" x="10" y="10" width="80" height="80"/>"##;
+    let clip = r##"<clipPath id="k"><rect x="30" y="30" width="40" height="40"/></clipPath>"##;
+    let sheet = "<style>.c { fill: red; clip-path: url(#k) }</style>";
+    near(area(&format!("{sheet}{clip}{shape}")), 1600.0, 1e-6);
+    let mask = r##"<mask id="k"><rect x="30" y="30" width="40" height="40" fill="white"/></mask>"##;
+    let sheet = "<style>.c { mask: url('#k') }</style>";
+    near(area(&format!("{sheet}{mask}{shape}")), 1600.0, 1e-6);
+    // To itself, and to everything: no circle, no refusal.
+    let sheet = "<style>* { clip-path: url(#k) }</style>";
+    near(area(&format!("{sheet}{clip}{shape}")), 1600.0, 1e-6);
+    for css in [".c { clip-path: circle(40px) }", ".c{clip-path:inset(5px)!important}"] {
+        let found = read(&format!("<style>{css}</style>{shape}"));
+        assert!(matches!(found, Err(SvgError::Cover { .. })), "{css}");
+    }
+    let turned = r##"<clipPath id="k"><use href="#x"/></clipPath><rect class="c" id="x" width="9" height="9"/>"##;
+    let found = read(&format!("<style>.c {{ clip-path: url(#k) }}</style>{turned}"));
+    assert!(matches!(found, Err(SvgError::Cover { .. })));
+}
+
+#[test]
 fn transforms_groups_use_and_styles_apply() {
     let body = r##"<style>.hidden { display: none }</style>
         <defs><g id="bar"><rect width="10" height="20"/></g></defs>

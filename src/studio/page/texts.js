@@ -26,7 +26,7 @@ export const T = {
   swap: "Swap driver and follower", mirror: "Mirror", change: "Change the drawing", free: "Let the search place the axes again",
   freeTurn: "Turn freely again", axisOf: (who) => `Axis of the ${who}: drag, or move with the arrow keys`, knob: "Turn of the follower's drawing: drag, or use the arrow keys",
   chooseFor: (who) => `A drawing for the ${who}`, builtIn: "Built-in shapes", ownFile: "A file", pencil: "Pencil", search: "Search",
-  dropHere: "Drop a drawing here, or choose a file", dropKinds: "SVG, PNG, JPEG, TIFF, BMP, points as CSV or JSON; everything stays on this machine",
+  dropHere: "Drop a drawing here, or choose a file", dropKinds: "SVG, PNG, JPEG, TIFF, BMP, WebP, points as CSV or JSON; everything stays on this machine",
   dropOn: (who) => `Drop as ${who}`, threshold: "Threshold", pencilHelp: "Draw a closed curve. Afterwards drag its points; double-click removes one.", pencilDone: "Use this curve", pencilClear: "Begin anew",
   tooLarge: (mb) => `The file is larger than ${mb} MB; choose a drawing`,
   main: "Main settings", reset: (name) => `${name}: back to default`, help: (name) => `What ${name} means`, chosen: "auto", defaultIs: (text) => ` Default: ${text}.`, off: "off",
