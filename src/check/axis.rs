@@ -212,10 +212,8 @@ fn middle(hole: &[Point]) -> Point {
 /// lie on it only by the drawing's chords and would pull the centre towards them.
 fn round_vertices(hole: &[Point], center: Point, radius: f64) -> Vec<Point> {
     let n = hole.len();
-    let on: Vec<bool> = hole
-        .iter()
-        .map(|p| ((p - center).norm() - radius).abs() <= ROUND_PART * radius)
-        .collect();
+    let on: Vec<bool> =
+        hole.iter().map(|p| ((p - center).norm() - radius).abs() <= ROUND_PART * radius).collect();
     // A chord of the circle keeps to it in its middle, the side of a flat or a key does not.
     let chord = |i: usize| {
         let middle = nalgebra::center(&hole[i], &hole[(i + 1) % n]);

@@ -386,8 +386,10 @@ mod tests {
     #[test]
     fn lines_that_lie_upon_one_another_in_part_count_once() {
         let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
-        for turn in [0.0, 0.3, 1.5707, 3.1] {
-            let at = |(x, y): (f64, f64)| (x * f64::cos(turn) - y * f64::sin(turn), x * f64::sin(turn) + y * f64::cos(turn));
+        for turn in [0.0, 0.3, 1.5, 3.1] {
+            let at = |(x, y): (f64, f64)| {
+                (x * f64::cos(turn) - y * f64::sin(turn), x * f64::sin(turn) + y * f64::cos(turn))
+            };
             let mut pieces = Vec::new();
             for i in 0..4 {
                 let (a, b) = (square[i], square[(i + 1) % 4]);

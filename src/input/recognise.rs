@@ -34,8 +34,7 @@ pub(super) fn recognised(bytes: &[u8], path: &str) -> Result<Format, Option<&'st
     if let Ok(format) = image::guess_format(bytes) {
         use image::ImageFormat as I;
         return match format {
-            I::Png | I::Jpeg | I::Tiff | I::Bmp => Ok(Format::Picture),
-            I::WebP => Err(Some("a WebP picture")),
+            I::Png | I::Jpeg | I::Tiff | I::Bmp | I::WebP => Ok(Format::Picture),
             I::Gif => Err(Some("a GIF picture")),
             _ => Err(Some("a picture of another kind")),
         };
@@ -43,7 +42,7 @@ pub(super) fn recognised(bytes: &[u8], path: &str) -> Result<Format, Option<&'st
     let by_extension = match extension.as_str() {
         "svg" => Ok(Format::Svg),
         "dxf" => Ok(Format::Dxf),
-        "png" | "jpg" | "jpeg" | "tif" | "tiff" | "bmp" => Ok(Format::Picture),
+        "png" | "jpg" | "jpeg" | "tif" | "tiff" | "bmp" | "webp" => Ok(Format::Picture),
         "json" => Ok(Format::Json),
         "stl" => Ok(Format::Stl),
         "obj" => Ok(Format::Obj),

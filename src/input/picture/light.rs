@@ -76,7 +76,8 @@ pub(super) fn evened(grey: &Samples) -> Option<(Samples, f64)> {
     }
     let mut values = Vec::with_capacity(grey.values.len());
     for (y, row) in grey.values.chunks_exact(width).enumerate() {
-        let even = |(x, &v): (usize, &u8)| (GROUND * value(f64::from(v)) / light(x, y)).round() as u8;
+        let even =
+            |(x, &v): (usize, &u8)| (GROUND * value(f64::from(v)) / light(x, y)).round() as u8;
         values.extend(row.iter().enumerate().map(even));
     }
     Some((Samples { values, width: grey.width, height: grey.height }, high - low))

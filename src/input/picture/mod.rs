@@ -164,7 +164,8 @@ const CUT: (f64, f64) = (0.05, 4.0);
 fn undecided(histogram: &[u64; 256], level: f64) -> f64 {
     let mean = |dark: bool| {
         let of = histogram.iter().enumerate().filter(|(v, _)| ((*v as f64) < level) == dark);
-        let (sum, count) = of.fold((0.0, 0_u64), |(s, c), (v, n)| (s + (v as f64) * *n as f64, c + n));
+        let (sum, count) =
+            of.fold((0.0, 0_u64), |(s, c), (v, n)| (s + (v as f64) * *n as f64, c + n));
         sum / count.max(1) as f64
     };
     let band = DOUBT_BAND * (mean(false) - mean(true));

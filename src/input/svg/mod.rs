@@ -96,7 +96,9 @@ pub enum SvgError {
         least: f64,
     },
     /// A clip path that is not applied.
-    #[error("its clip path or mask `{value}` is given by CSS in a way that is not read; give the element a clip-path=\"url(#...)\" without `use` in it")]
+    #[error(
+        "its clip path or mask `{value}` is given by CSS in a way that is not read; give the element a clip-path=\"url(#...)\" without `use` in it"
+    )]
     Cover {
         /// Its value.
         value: String,
