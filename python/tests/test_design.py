@@ -62,7 +62,7 @@ def test_shapes_of_every_kind_make_the_same_pair(tmp_path: Path) -> None:
     shapely = pytest.importorskip("shapely")
     angle = np.linspace(0, 2 * np.pi, 200, endpoint=False)
     points = np.column_stack([30 * np.cos(angle), 20 * np.sin(angle)])
-    np.savetxt(tmp_path / "shape.csv", points, delimiter=",", fmt="%r")
+    np.savetxt(tmp_path / "shape.csv", points, delimiter=",", fmt="%.17g")
     given = [points, points.tolist(), shapely.Polygon(points), tmp_path / "shape.csv"]
     outlines = [centrode.mate(shape, teeth=20, no_simulate=True).driver.outline for shape in given]
     assert all(np.array_equal(outline, outlines[0]) for outline in outlines)
