@@ -89,7 +89,7 @@ def test_what_is_refused_names_the_argument() -> None:
 
 def test_files_are_those_of_the_command_line(pair: centrode.Design, tmp_path: Path) -> None:
     line = [sys.executable, "-m", "centrode", "motion", "1 + 0.3*cos(2*phi)", "--teeth=24", "--no-simulate"]
-    subprocess.run([*line, "--quiet", "-o", str(tmp_path / "line")], check=True)
+    subprocess.run([*line, "-o", str(tmp_path / "line")], check=True, stdout=subprocess.DEVNULL)
     pair.export(tmp_path / "python")
     names = sorted(path.name for path in (tmp_path / "line").iterdir())
     assert names == sorted(path.name for path in (tmp_path / "python").iterdir())
