@@ -4,7 +4,8 @@
 //! [`input`] reads drawings and finished gears into [`outline`]s; [`gear`] tells the two gears apart; [`pitch`] rolls curves on each other; [`fit`] finds axes and motion for two shapes, or the
 //! mate of one; [`law`] reads motions as formulas and tables; [`teeth`] lays flanks on the pitch curves; [`pipeline`] does all
 //! of it and judges the result with [`meshing`] and [`strength`]; [`assembly`] puts pairs together to trains; [`solid`],
-//! [`export`] and [`report`] make files. [`check`] judges gears of any origin, [`gallery`] ranks many pairs, [`scene`] keeps a
+//! [`export`] and [`report`] make files. [`schema`] keeps a design and gives its stages back; [`results`] tells of it in
+//! lines, figures and pages. [`check`] judges gears of any origin, [`gallery`] ranks many pairs, [`scene`] keeps a
 //! command's options in a file.
 //!
 //! Two shapes:
@@ -59,6 +60,7 @@ pub mod pipeline;
 pub mod pitch;
 pub mod policy;
 pub mod report;
+pub mod results;
 pub mod scene;
 pub mod schema;
 pub mod solid;

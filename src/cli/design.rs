@@ -1,7 +1,7 @@
 //! `centrode design`: from the command line to a folder of files.
 
+use std::ffi::OsString;
 use std::io::Write as _;
-use std::time::Instant;
 
 use centrode::export::{Staging, check_folder, check_inputs, write_json};
 use centrode::fit::{FitOptions, Fixed, Limits, Ratio, Search, alternatives};
@@ -12,14 +12,15 @@ use centrode::report::Alternatives;
 use super::Outcome;
 use super::args::{DesignArgs, SearchArg};
 use super::files::{Inputs, write_text};
+use super::making::Asked;
 use super::mirror::mirrored;
 use super::progress::Progress;
 
 /// Names of what `--alternatives` writes.
 const CHOICES: [&str; 2] = ["alternatives.html", "alternatives.json"];
 
-pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
-    let start = Instant::now();
+pub(crate) fn run(args: &DesignArgs, words: &[OsString]) -> anyhow::Result<Outcome> {
+    let asked = Asked::now(words);
     let mut options = options(args)?;
     let progress = Progress::new();
     progress.doing("reading the shapes");
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &DesignArgs) -> anyhow::Result<Outcome> {
     progress.doing(format!("fitting {} to {}", driver.name, follower.name));
     let request = Request::two_shapes(driver, follower).with(options);
     let made = request.design(&progress.control())?;
-    args.pair.making().deliver(&made, inputs, &progress, start)
+    args.pair.making().deliver(&made, inputs, &progress, &asked)
 }
 
 /// Writes the page and the data of the pairs there are to choose from.

@@ -24,6 +24,7 @@ use centrode::pipeline::{Design, DesignOptions, design};
 use centrode::pitch::Centrodes;
 use centrode::policy;
 use centrode::report::report_html;
+use centrode::results::design_page;
 use centrode::schema::{RECORD_NAME, Record};
 use centrode::solid::assembly_solids;
 use clap::{CommandFactory, Parser};
@@ -113,7 +114,7 @@ pub(crate) fn run(args: &GalleryArgs, words: &[OsString]) -> anyhow::Result<Outc
         check_inputs(&inputs, "file", &output.join(job.folder(&names)), &own)?;
     }
     prepare_folder(output)?;
-    let maker = Maker { args, base, shapes: &shapes, names: &names, output };
+    let maker = Maker { args, base, shapes: &shapes, names: &names, output, words };
     let bar = Bar::new(mine.len() as u64);
     let broken = Mutex::new(None);
     let rows: Vec<Row> = mine
@@ -264,6 +265,8 @@ struct Maker<'a> {
     shapes: &'a [Shape],
     names: &'a [String],
     output: &'a Path,
+    /// The command line.
+    words: &'a [OsString],
 }
 
 /// A pair that was made, and what follows from it.
@@ -356,7 +359,7 @@ impl Maker<'_> {
             wanted.write(Parts { assembly: &made.assembly, meshes: &meshes }, folder)?;
             if wanted.wants(Format::Html) {
                 let page =
-                    report_html(&made.assembly, &report::page(made, report::own_command_line()));
+                    report_html(&made.assembly, &design_page(made, report::shown(self.words)));
                 write_text(folder, "report.html", &page)?;
             }
         }

@@ -1,5 +1,6 @@
 //! What all commands share that make a pair: options of teeth and size, and the way from a design to a folder.
 
+use std::ffi::OsString;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -14,6 +15,7 @@ use centrode::input::{LoadOptions, Shape, load};
 use centrode::outline::Smoothing;
 use centrode::pipeline::{Design, DesignOptions, Scale, TeethStyle, ToothCount};
 use centrode::report::report_html;
+use centrode::results::{RUN_TABLES, design_page};
 use centrode::schema::{RECORD_NAME, Record};
 use centrode::solid::{Mesh, assembly_solids};
 use centrode::strength::Load;
@@ -24,7 +26,6 @@ use super::args::{
 use super::files::{Inputs, write_text};
 use super::outfit::OutfitArgs;
 use super::progress::Progress;
-use super::proof::TABLES;
 use super::{Outcome, report};
 
 /// Bytes at the head of a file that tell an image from other drawings.
@@ -41,6 +42,20 @@ pub(crate) struct Making<'a> {
     formats: &'a ExportArgs,
     no_simulate: bool,
     run: &'a RunArgs,
+}
+
+/// What a command was asked, and when.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked<'a> {
+    words: &'a [OsString],
+    start: Instant,
+}
+
+impl<'a> Asked<'a> {
+    /// A command that begins now; `words` is its command line.
+    pub(crate) fn now(words: &'a [OsString]) -> Self {
+        Self { words, start: Instant::now() }
+    }
 }
 
 impl PairArgs {
@@ -103,7 +118,7 @@ impl Making<'_> {
         check_folder(self.output)?;
         let mut names = self.formats.wanted().files_of_a_pair();
         if !self.no_simulate {
-            names.extend(TABLES);
+            names.extend(RUN_TABLES);
         }
         check_inputs(inputs.paths, inputs.what, self.output, &names)
     }
@@ -114,7 +129,7 @@ impl Making<'_> {
         made: &Design,
         inputs: Inputs<'_>,
         progress: &Progress,
-        start: Instant,
+        asked: &Asked<'_>,
     ) -> anyhow::Result<Outcome> {
         if !made.is_sound() && !self.teeth.force {
             progress.done();
@@ -124,9 +139,9 @@ impl Making<'_> {
         progress.doing("making solids");
         let meshes = assembly_solids(&made.assembly)?;
         progress.doing("writing files");
-        let files = self.write(made, &meshes, inputs)?;
+        let files = self.write(made, &meshes, inputs, asked)?;
         progress.done();
-        report::summary(made, &files, self.output, start.elapsed(), self.json)?;
+        report::summary(made, &files, self.output, asked.start.elapsed(), self.json)?;
         Ok(if made.is_sound() { Outcome::Good } else { Outcome::NotSound })
     }
 
@@ -148,10 +163,11 @@ impl Making<'_> {
         made: &Design,
         meshes: &[Mesh],
         inputs: Inputs<'_>,
+        asked: &Asked<'_>,
     ) -> anyhow::Result<Vec<PathBuf>> {
         let staging = Staging::new(self.output)?;
         let files =
-            write_into(staging.path(), made, meshes, self.formats, report::own_command_line())
+            write_into(staging.path(), made, meshes, self.formats, report::shown(asked.words))
                 .map_err(|error| staging.told_of_the_final_place(error))?;
         Ok(staging.publish_beside(&files, inputs.paths, inputs.what)?)
     }
@@ -169,7 +185,7 @@ pub(super) fn write_into(
     let wanted = formats.wanted();
     let mut files = wanted.write(parts, folder)?;
     if wanted.wants(Format::Html) {
-        let page = report_html(&made.assembly, &report::page(made, command));
+        let page = report_html(&made.assembly, &design_page(made, command));
         files.push(write_text(folder, "report.html", &page)?);
     }
     if let Some(proof) = &made.proof {

@@ -1,6 +1,6 @@
 //! `centrode mate`: a gear of one shape, and the gear that runs with it.
 
-use std::time::Instant;
+use std::ffi::OsString;
 
 use anyhow::Context;
 use centrode::fit::{FitOptions, Fixed, Limits};
@@ -9,10 +9,11 @@ use centrode::pipeline::{DesignOptions, Request};
 use super::Outcome;
 use super::args::MateArgs;
 use super::files::Inputs;
+use super::making::Asked;
 use super::progress::Progress;
 
-pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
-    let start = Instant::now();
+pub(crate) fn run(args: &MateArgs, words: &[OsString]) -> anyhow::Result<Outcome> {
+    let asked = Asked::now(words);
     let progress = Progress::new();
     progress.doing("reading the shape");
     let shape = args.reading.read(&args.shape, &progress)?;
@@ -29,7 +30,7 @@ pub(crate) fn run(args: &MateArgs) -> anyhow::Result<Outcome> {
     let made = request.design(&progress.control()).with_context(|| {
         format!("{} (drawn from {:.4},{:.4} to {:.4},{:.4})", name, low.x, low.y, high.x, high.y)
     })?;
-    making.deliver(&made, inputs, &progress, start)
+    making.deliver(&made, inputs, &progress, &asked)
 }
 
 /// As the library takes them.

@@ -37,7 +37,6 @@ use clap::Parser;
 use clap::error::ErrorKind;
 use std::ffi::OsString;
 use std::process::ExitCode;
-use std::sync::OnceLock;
 
 /// Exit code for bad input; nothing was written.
 pub(crate) const BAD_INPUT: u8 = 2;
@@ -74,7 +73,7 @@ pub fn main() -> ExitCode {
 /// Returns 0 when all is well, 1 for a result that was made but is not sound, 2 for bad input.
 #[must_use]
 pub fn main_of(words: Vec<OsString>) -> u8 {
-    let words = WORDS.get_or_init(|| words);
+    let words = words.as_slice();
     if presets::asked(words.iter().cloned()) {
         presets::print();
         return 0;
@@ -90,14 +89,6 @@ pub fn main_of(words: Vec<OsString>) -> u8 {
             BAD_INPUT
         }
     }
-}
-
-/// The command line that this process carries out.
-static WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
-
-/// The words of this process' command line, the program's name first.
-fn own_words() -> &'static [OsString] {
-    WORDS.get().map(Vec::as_slice).unwrap_or_default()
 }
 
 /// What failed and why, from the outermost to the innermost cause; a cause that has been quoted is not said again.
@@ -131,9 +122,9 @@ fn carry_out(cli: &Cli, words: &[OsString]) -> anyhow::Result<Outcome> {
         scene::check_save(path, words)?;
     }
     let outcome = match &cli.command {
-        Command::Design(args) => design::run(args),
-        Command::Motion(args) => motion::run(args),
-        Command::Mate(args) => mate::run(args),
+        Command::Design(args) => design::run(args, words),
+        Command::Motion(args) => motion::run(args, words),
+        Command::Mate(args) => mate::run(args, words),
         Command::Check(args) => check::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Export(args) => export::run(args),

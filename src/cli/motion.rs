@@ -1,9 +1,9 @@
 //! `centrode motion`: gears from a wanted motion.
 
+use std::ffi::OsString;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-use std::time::Instant;
 
 use anyhow::{Context, anyhow, bail};
 use centrode::law::{Formula, LawOptions, Quantity, Segment, Table, from_function, from_segment};
@@ -14,13 +14,14 @@ use centrode::policy;
 use super::Outcome;
 use super::args::MotionArgs;
 use super::files::Inputs;
+use super::making::Asked;
 use super::progress::Progress;
 
 /// Extensions of tables.
 const TABLES: [&str; 3] = ["csv", "tsv", "txt"];
 
-pub(crate) fn run(args: &MotionArgs) -> anyhow::Result<Outcome> {
-    let start = Instant::now();
+pub(crate) fn run(args: &MotionArgs, words: &[OsString]) -> anyhow::Result<Outcome> {
+    let asked = Asked::now(words);
     let progress = Progress::new();
     let (transmission, names) = motion(args)?;
     let making = args.pair.making();
@@ -32,7 +33,7 @@ pub(crate) fn run(args: &MotionArgs) -> anyhow::Result<Outcome> {
     progress.doing("laying teeth on the pitch curves");
     let request = Request::motion(transmission, names).with(options);
     let made = request.design(&progress.control())?;
-    making.deliver(&made, inputs, &progress, start)
+    making.deliver(&made, inputs, &progress, &asked)
 }
 
 /// As the library takes them.

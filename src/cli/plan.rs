@@ -308,7 +308,10 @@ pub fn command_text(words: &[String]) -> String {
 /// The page `report.html` of a finished design; `words` is the command that makes it.
 #[must_use]
 pub fn page(made: &Design, words: &[String]) -> String {
-    centrode::report::report_html(&made.assembly, &report::page(made, command_text(words)))
+    centrode::report::report_html(
+        &made.assembly,
+        &centrode::results::design_page(made, command_text(words)),
+    )
 }
 
 #[cfg(test)]

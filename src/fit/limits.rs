@@ -36,7 +36,7 @@ impl Default for Limits {
 }
 
 /// What the limits changed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LimitCost {
     /// Change of shape in the measure of Eq. 12: 4 times the integral of (change of psi')^2 over the driver's turn. Added to
     /// Delta it is what Eq. 12 would give for gears drawn to the limited law (at equal balance).

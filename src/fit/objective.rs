@@ -68,7 +68,7 @@ pub(super) struct Problem<'a> {
 }
 
 /// What a candidate is worth. `total` is what searches minimise.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Objective {
     /// E: `shape + weight * torque + limiting_cost + folding_cost + lost_cost`. For K = 1 and where no limit bites it is Eq. 11.
     pub total: f64,

@@ -85,6 +85,18 @@ impl Part {
 }
 
 impl Toothed {
+    /// Their contact, as [`Session`](super::Session) has it analysed for these options.
+    ///
+    /// # Errors
+    /// [`PipelineError::Contact`], [`PipelineError::Cancelled`].
+    pub fn analysed(
+        self: &Arc<Self>,
+        options: &DesignOptions,
+        control: &Control,
+    ) -> Result<Analysed, PipelineError> {
+        Part::of(options, self, options.quick).make(self, None, control)
+    }
+
     /// Gears of this pair in mesh.
     pub(super) fn in_mesh<'a>(
         &'a self,

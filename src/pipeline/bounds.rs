@@ -26,7 +26,7 @@ const ROUNDING_ACCEPTED: f64 = 0.03;
 const SMALLEST_CHOSEN_MODULE: f64 = 1.2;
 
 /// Bounds that the pitch curves keep for the sake of the teeth.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Bounds {
     /// Greatest curvature of a pitch curve times the module.
     pub curvature: f64,

@@ -52,6 +52,8 @@ pub struct Design {
     pub proof: Option<MeshingReport>,
     /// What was done to make the pair work, what deserves attention, and why it must not be trusted.
     pub diagnostics: Vec<Diagnostic>,
+    /// The stages themselves.
+    pub stages: Stages,
 }
 
 impl Design {
@@ -82,6 +84,7 @@ impl Design {
             strength: outfitted.strength.clone(),
             proof: proven.report.clone(),
             diagnostics: stages.diagnostics(),
+            stages: stages.clone(),
         })
     }
 

@@ -27,6 +27,7 @@ mod toothed;
 mod wanted;
 
 pub use analysed::Analysed;
+pub use bounds::Bounds;
 pub use finished::{Design, design, from_motion, mate};
 pub use options::{BoreChoice, DesignOptions, PipelineError, Scale, TeethStyle, ToothCount};
 pub use outfitted::Outfitted;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::analysed::Analysed;
 use super::proven::Proven;
 use super::{BoreChoice, DesignOptions, PipelineError, outfit, sector};
 use crate::assembly::{Assembly, Fittings, Gear, PlacedGear};
@@ -84,15 +85,7 @@ impl Part {
         }
         let names = &sized.wanted.names;
         found.extend(outfit::fit_out(&mut assembly, &self.outfit, names, sized.module)?);
-        let strength = strength(&Loaded {
-            centrodes: &sized.centrodes,
-            profiles: [&toothed.finished.driver, &toothed.finished.follower],
-            module: sized.module,
-            thickness: self.thickness,
-            pressure_angle: self.pressure_angle,
-            contact_ratio: analysed.contact.summary.contact_ratio,
-            load: self.load,
-        });
+        let strength = analysed.under(self.load, self.thickness, self.pressure_angle);
         control.progress(StageName::Outfitted, 1.0);
         Ok(Outfitted { proven: proven.clone(), assembly, strength, diagnostics: found })
     }
@@ -160,6 +153,27 @@ impl Part {
                 Ok(None)
             }
         }
+    }
+}
+
+impl Analysed {
+    /// Bending of the teeth, power and efficiency under the load of `options`.
+    #[must_use]
+    pub fn strength(&self, options: &DesignOptions) -> Strength {
+        self.under(options.load, options.thickness, options.pressure_angle)
+    }
+
+    fn under(&self, load: Load, thickness: f64, pressure_angle: f64) -> Strength {
+        let toothed = &self.toothed;
+        strength(&Loaded {
+            centrodes: &toothed.sized.centrodes,
+            profiles: [&toothed.finished.driver, &toothed.finished.follower],
+            module: toothed.sized.module,
+            thickness,
+            pressure_angle,
+            contact_ratio: self.contact.summary.contact_ratio,
+            load,
+        })
     }
 }
 

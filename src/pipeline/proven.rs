@@ -42,6 +42,16 @@ impl Part {
             let diagnostics = Vec::new();
             return Ok(Proven { analysed: analysed.clone(), report: None, diagnostics });
         }
+        self.run(analysed, control)
+    }
+
+    /// Runs the pair, whatever its contact is like.
+    pub(super) fn run(
+        &self,
+        analysed: &Arc<Analysed>,
+        control: &Control,
+    ) -> Result<Proven, PipelineError> {
+        let toothed = &analysed.toothed;
         let contact = toothed.in_mesh(toothed.finished.as_ref(), control);
         let input = DynamicsInput { contact, driver_teeth: toothed.sized.teeth.driver };
         let report = prove(&input, analysed.contact.clone(), &self.runs, &self.limits)?;

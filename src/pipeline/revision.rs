@@ -27,7 +27,7 @@ const GENTLER_TRIES: usize = 4;
 const LESS_SLOPE: [f64; 2] = [SLOPE_REPAIR, 3.0 * SLOPE_REPAIR];
 
 /// One repair that was tried.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Revision {
     /// What was tried, as a note: [`Code::GentlerTeeth`] or [`Code::LessSlope`].
     pub note: Diagnostic,

@@ -16,6 +16,7 @@ use super::{DesignOptions, PipelineError, Request, ToothCount};
 use crate::control::{Control, StageName};
 use crate::diagnose::{Diagnostic, Verdict};
 use crate::fit::Fitter;
+use crate::meshing::DynamicsOptions;
 
 /// Results of one stage that are kept: the attempts of one request with its repairs, and a request or two before it. Runs
 /// weigh megabytes.
@@ -101,6 +102,26 @@ impl Stages {
         found.extend(self.proven.iter().flat_map(|s| s.diagnostics.iter().cloned()));
         found.extend(self.outfitted.iter().flat_map(|s| s.diagnostics.iter().cloned()));
         crate::diagnose::once_each(found)
+    }
+
+    /// The same finished pair run again, as other runs ask; its gears and what was found of them before stay. None before
+    /// the last stage.
+    ///
+    /// # Errors
+    /// [`PipelineError::Dynamics`], [`PipelineError::Cancelled`].
+    pub fn run_again(
+        &self,
+        runs: Vec<DynamicsOptions>,
+        control: &Control,
+    ) -> Result<Option<Self>, PipelineError> {
+        let Some(outfitted) = &self.outfitted else { return Ok(None) };
+        let options = DesignOptions { runs, ..self.asked.options.clone() };
+        let analysed = &outfitted.proven.analysed;
+        let proven = control.run(|| proven::Part::of(&options).run(analysed, control))?;
+        let proven = Arc::new(proven);
+        let outfitted = Outfitted { proven: proven.clone(), ..Outfitted::clone(outfitted) };
+        let (proven, outfitted) = (Some(proven), Some(Arc::new(outfitted)));
+        Ok(Some(Self { proven, outfitted, ..self.clone() }))
     }
 
     /// The verdict on what has been made.

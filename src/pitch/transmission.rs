@@ -269,6 +269,18 @@ impl Transmission {
         self.spline.min.1
     }
 
+    /// psi' at the knots of its spline, uniform over one period from [`Self::phase`] before driver angle 0.
+    #[must_use]
+    pub fn knots(&self) -> Vec<f64> {
+        self.spline.coefficients.iter().map(|c| c[0]).collect()
+    }
+
+    /// Where driver angle 0 lies on the spline, radians; 0 where it was not [shifted](Self::shifted).
+    #[must_use]
+    pub fn phase(&self) -> f64 {
+        self.phase
+    }
+
     /// psi' at uniform driver angles over one period, from driver angle 0.
     #[must_use]
     pub fn samples(&self) -> &[f64] {

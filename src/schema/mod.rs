@@ -4,6 +4,7 @@ mod fittings;
 mod record;
 mod saved;
 mod settings;
+mod stages;
 mod train_file;
 pub mod words;
 

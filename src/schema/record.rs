@@ -1,71 +1,106 @@
 //! `design.json`: what every run writes and other programs may rely on.
 
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::Value;
 
 use super::fittings::{FittingsRecord, FixtureRecord};
+use super::stages::StagesRecord;
 use crate::assembly::{Assembly, PlacedGear};
 use crate::diagnose::{Diagnostic, Severity, Verdict};
 use crate::gear::Side;
 use crate::geometry::Point;
 use crate::meshing::{Direction, Drive, Dynamics, WorstPlace};
 use crate::pipeline::{Design, DesignOptions};
+use crate::policy;
 use crate::strength::Strength;
 
 /// Version of the record. 0, where a record has none: options were spelled otherwise.
 pub const RECORD_VERSION: u32 = 1;
 
+/// What lengths are in.
+pub(super) const UNITS: &str = "mm";
+
 /// The record of one design; field order is the order in the file. Lengths mm, angles radians.
-#[derive(Debug, Serialize)]
+///
+/// What is only told to other programs is written and not read back; version 0 had no `settings` that can be read, no
+/// `used` and no `stages`.
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Record {
-    centrode: &'static str,
-    version: u32,
-    units: &'static str,
-    names: [String; 2],
-    ratio: f64,
-    center_distance: f64,
-    module: f64,
-    thickness: f64,
-    driver: GearRecord,
-    follower: GearRecord,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    fixtures: Vec<FixtureRecord>,
-    motion: Motion,
+    #[serde(default)]
+    centrode: String,
+    #[serde(default)]
+    pub(super) version: u32,
+    pub(super) units: String,
+    #[serde(default = "plain_names")]
+    pub(super) names: [String; 2],
+    pub(super) ratio: f64,
+    pub(super) center_distance: f64,
+    pub(super) module: f64,
+    #[serde(default = "plain_thickness")]
+    pub(super) thickness: f64,
+    pub(super) driver: GearRecord,
+    pub(super) follower: GearRecord,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) fixtures: Vec<FixtureRecord>,
+    pub(super) motion: Motion,
     /// Of pairs that were fitted to two shapes.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_deserializing, skip_serializing_if = "Option::is_none")]
     objective: Option<ObjectiveRecord>,
-    #[serde(skip_serializing_if = "Resemblance::is_empty")]
+    #[serde(skip_deserializing, skip_serializing_if = "Resemblance::is_empty")]
     resemblance: Resemblance,
     /// Of pairs that were not.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_deserializing, skip_serializing_if = "Option::is_none")]
     law: Option<Law>,
-    meshing: Meshing,
-    strength: StrengthRecord,
+    #[serde(skip_deserializing)]
+    meshing: Option<Meshing>,
+    #[serde(skip_deserializing)]
+    strength: Option<StrengthRecord>,
     /// What was asked, spelled as the command line spells it.
-    settings: DesignOptions,
+    #[serde(default, deserialize_with = "known")]
+    pub(super) settings: Option<DesignOptions>,
     /// What was used: the number of teeth that was chosen, and the bounds that repairs led to.
-    used: DesignOptions,
+    #[serde(default, deserialize_with = "known")]
+    pub(super) used: Option<DesignOptions>,
+    /// What the stages were made from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) stages: Option<StagesRecord>,
 }
 
-#[derive(Debug, Serialize)]
-struct GearRecord {
-    teeth: u32,
-    pitch_curve: Vec<[f64; 2]>,
-    outline: Vec<[f64; 2]>,
-    bore: Option<Vec<[f64; 2]>>,
-    input: Vec<[f64; 2]>,
+/// Options as this version spells them; none for those of version 0.
+fn known<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<DesignOptions>, D::Error> {
+    Ok(serde_json::from_value(Value::deserialize(deserializer)?).ok())
+}
+
+fn plain_names() -> [String; 2] {
+    Side::BOTH.map(|side| side.name().to_owned())
+}
+
+fn plain_thickness() -> f64 {
+    policy::DEFAULT_THICKNESS
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct GearRecord {
+    pub(super) teeth: u32,
+    pub(super) pitch_curve: Vec<[f64; 2]>,
+    pub(super) outline: Vec<[f64; 2]>,
+    pub(super) bore: Option<Vec<[f64; 2]>>,
+    #[serde(default)]
+    pub(super) input: Vec<[f64; 2]>,
     /// Null for a gear that has no drawing, whose `input` is then empty.
+    #[serde(skip_deserializing)]
     rotation_center_in_input: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fittings: Option<FittingsRecord>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) fittings: Option<FittingsRecord>,
 }
 
-#[derive(Debug, Serialize)]
-struct Motion {
-    driver_angle: Vec<f64>,
-    follower_angle: Vec<f64>,
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Motion {
+    pub(super) driver_angle: Vec<f64>,
+    pub(super) follower_angle: Vec<f64>,
     /// Whether the pair goes back the same way instead of round and round.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    swings: bool,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(super) swings: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -89,7 +124,7 @@ struct ObjectiveRecord {
 }
 
 /// Left out for a gear that has no drawing.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 struct Resemblance {
     #[serde(skip_serializing_if = "Option::is_none")]
     driver_iou: Option<f64>,
@@ -210,16 +245,15 @@ impl Record {
     /// The record of a design.
     #[must_use]
     pub fn new(design: &Design) -> Self {
-        let options = &design.options;
         let exact = design.exact_contact.summary.transmission_error_pitch.as_ref();
         let summary = &design.contact.summary;
         let gears = &design.assembly.gears;
         let transmission = &design.centrodes.transmission;
         let center = |i: usize| design.drawings[i].map(|d| d.center_in_input);
         Self {
-            centrode: env!("CARGO_PKG_VERSION"),
+            centrode: env!("CARGO_PKG_VERSION").to_owned(),
             version: RECORD_VERSION,
-            units: "mm",
+            units: UNITS.to_owned(),
             names: design.names.clone(),
             ratio: design.centrodes.transmission.ratio(),
             center_distance: design.centrodes.center_distance,
@@ -254,7 +288,7 @@ impl Record {
                 derivative: transmission.samples().to_vec(),
                 folds: [transmission.driver_fold(), transmission.follower_fold()],
             }),
-            meshing: Meshing {
+            meshing: Some(Meshing {
                 verdict: design.verdict(),
                 diagnostics: design.diagnostics.clone(),
                 faults: design.told(Severity::Fault),
@@ -272,10 +306,11 @@ impl Record {
                 max_pressure_angle: summary.max_pressure_angle.as_ref().map(|w| w.value),
                 max_lean: design.centrodes.max_lean(),
                 runs: design.proof.iter().flat_map(|p| p.runs.iter().map(run_record)).collect(),
-            },
-            strength: StrengthRecord::new(&design.strength),
-            settings: options.clone(),
-            used: design.used.clone(),
+            }),
+            strength: Some(StrengthRecord::new(&design.strength)),
+            settings: Some(design.options.clone()),
+            used: Some(design.used.clone()),
+            stages: StagesRecord::new(&design.stages),
         }
     }
 }

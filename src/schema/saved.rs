@@ -5,14 +5,14 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-use serde_json::Value;
-
-use super::fittings::{FittingsRecord, FixtureRecord};
-use super::record::RECORD_VERSION;
+use super::fittings::FixtureRecord;
+use super::record::{GearRecord, Motion, RECORD_VERSION, Record, UNITS};
+use super::stages::Kept;
 use crate::assembly::{Assembly, Fixture, Gear, PlacedGear};
-use crate::gear::{MotionError, SampledMotion};
+use crate::control::Control;
+use crate::gear::{MotionError, Pair, SampledMotion, Side};
 use crate::geometry::{self, Point};
+use crate::pipeline::{PipelineError, Stages};
 use crate::policy;
 use crate::wording::quoted;
 
@@ -21,7 +21,7 @@ pub const RECORD_NAME: &str = "design.json";
 
 /// What `design.json` holds of a pair: enough to draw, export, or turn it. Lengths in mm, angles in
 /// radians, each gear in its own frame.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct SavedDesign {
     /// Names of the two shapes, driver first.
     pub names: [String; 2],
@@ -43,10 +43,8 @@ pub struct SavedDesign {
     pub follower_angle: Vec<f64>,
     /// Whether the pair is cut to sectors, the samples are the way there, and it goes back the same way.
     pub swings: bool,
-    /// Every option of the run as it was written.
-    pub settings: Value,
-    /// The verdict on the mesh and its numbers as they were written.
-    pub meshing: Value,
+    /// The stages; none in records of version 0.
+    kept: Option<Box<Kept>>,
 }
 
 /// Why a record cannot be used.
@@ -96,15 +94,15 @@ impl SavedDesign {
     /// # Errors
     /// What is missing or wrong, as half a sentence.
     pub fn from_json(text: &str) -> Result<Self, String> {
-        let file: File = serde_json::from_str(text).map_err(|e| quoted(&e.to_string()))?;
+        let file: Record = serde_json::from_str(text).map_err(|e| quoted(&e.to_string()))?;
         if file.version > RECORD_VERSION {
             return Err(format!(
                 "it is of version {}, and this centrode reads up to version {RECORD_VERSION}",
                 file.version
             ));
         }
-        if file.units != "mm" {
-            return Err(format!("its units are {:?} instead of \"mm\"", quoted(&file.units)));
+        if file.units != UNITS {
+            return Err(format!("its units are {:?} instead of {UNITS:?}", quoted(&file.units)));
         }
         for (name, value, most) in [
             ("ratio", file.ratio, f64::from(policy::MAX_RATIO)),
@@ -120,24 +118,23 @@ impl SavedDesign {
         if motion.driver_angle.len() != motion.follower_angle.len() {
             return Err("its two lists of angles differ in length".to_owned());
         }
-        for (name, angles) in
-            [("driver", &motion.driver_angle), ("follower", &motion.follower_angle)]
-        {
+        let angles = Pair::new(&motion.driver_angle, &motion.follower_angle);
+        for (side, angles) in angles.each() {
             let steps = angles.windows(2).all(|w| w[1] - w[0] >= policy::RECORD_LEAST_STEP);
             if angles.len() < 2 || angles[0] != 0.0 || !steps {
-                return Err(format!("its {name} angles do not rise from 0"));
+                return Err(format!("its {side} angles do not rise from 0"));
             }
             let (most, last) = (policy::RECORD_SAMPLES, angles[angles.len() - 1]);
             let turns = TAU * f64::from(policy::MAX_RATIO) + 1e-6;
             if angles.len() > most || last > turns {
                 return Err(format!(
-                    "its {} {name} angles go up to {last:e} radians; {most} and {turns:.1} are the most",
+                    "its {} {side} angles go up to {last:e} radians; {most} and {turns:.1} are the most",
                     angles.len()
                 ));
             }
         }
         file.names.iter().try_for_each(|name| plain_name(name))?;
-        let gears = [gear("driver", file.driver)?, gear("follower", file.follower)?];
+        let gears = [gear(Side::Driver, file.driver)?, gear(Side::Follower, file.follower)?];
         let pitch_curve = geometry::perimeter(&gears[0].pitch_curve);
         let module = pitch_curve / (PI * f64::from(gears[0].teeth));
         let off = policy::RECORD_MODULE_OFF;
@@ -148,7 +145,7 @@ impl SavedDesign {
             ));
         }
         agree(&gears, file.ratio, &file.motion)?;
-        Ok(Self {
+        let mut made = Self {
             names: file.names,
             ratio: file.ratio,
             center_distance: file.center_distance,
@@ -163,9 +160,24 @@ impl SavedDesign {
             driver_angle: file.motion.driver_angle,
             follower_angle: file.motion.follower_angle,
             swings: file.motion.swings,
-            settings: file.settings,
-            meshing: file.meshing,
-        })
+            kept: None,
+        };
+        if file.version > 0 {
+            let options = file.settings.zip(file.used);
+            let options = options.ok_or("its settings cannot be read")?;
+            let stages = file.stages.ok_or("it has no stages")?;
+            made.kept = Some(Box::new(stages.read(&made, options)?));
+        }
+        Ok(made)
+    }
+
+    /// The stages, as [`Session`](crate::pipeline::Session) left them, less the runs themselves; contact and strength are
+    /// worked out again. None for a record of version 0, which holds the finished pair alone.
+    ///
+    /// # Errors
+    /// [`PipelineError::Contact`] for outlines of which no contact can be worked out, [`PipelineError::Cancelled`].
+    pub fn stages(&self, control: &Control) -> Result<Option<Stages>, PipelineError> {
+        self.kept.as_ref().map(|kept| kept.stages(self, control)).transpose()
     }
 
     /// psi of a pair that turns round and round.
@@ -220,52 +232,8 @@ pub(super) fn bounded_text(path: &Path, limit: u64) -> io::Result<String> {
     String::from_utf8(bytes).map_err(not_text)
 }
 
-/// The part of the file that is read; more may stand beside it.
-#[derive(Deserialize)]
-struct File {
-    #[serde(default)]
-    version: u32,
-    units: String,
-    #[serde(default = "plain_names")]
-    names: [String; 2],
-    ratio: f64,
-    center_distance: f64,
-    module: f64,
-    #[serde(default = "plain_thickness")]
-    thickness: f64,
-    driver: FileGear,
-    follower: FileGear,
-    #[serde(default)]
-    fixtures: Vec<FixtureRecord>,
-    motion: FileMotion,
-    #[serde(default)]
-    settings: Value,
-    #[serde(default)]
-    meshing: Value,
-}
-
-#[derive(Deserialize)]
-struct FileGear {
-    teeth: u32,
-    pitch_curve: Vec<[f64; 2]>,
-    outline: Vec<[f64; 2]>,
-    bore: Option<Vec<[f64; 2]>>,
-    #[serde(default)]
-    input: Vec<[f64; 2]>,
-    #[serde(default)]
-    fittings: FittingsRecord,
-}
-
-#[derive(Deserialize)]
-struct FileMotion {
-    driver_angle: Vec<f64>,
-    follower_angle: Vec<f64>,
-    #[serde(default)]
-    swings: bool,
-}
-
 /// Passes a record whose ratio, tooth counts and motion tell the same; else says which two do not.
-fn agree(gears: &[Gear; 2], ratio: f64, motion: &FileMotion) -> Result<(), String> {
+fn agree(gears: &[Gear; 2], ratio: f64, motion: &Motion) -> Result<(), String> {
     let agrees = |other: f64| (other / ratio - 1.0).abs() <= policy::RECORD_RATIO_OFF;
     let teeth = [0, 1].map(|i| gears[i].teeth);
     let of_teeth = f64::from(teeth[1]) / f64::from(teeth[0]);
@@ -284,45 +252,39 @@ fn agree(gears: &[Gear; 2], ratio: f64, motion: &FileMotion) -> Result<(), Strin
     Ok(())
 }
 
-fn plain_names() -> [String; 2] {
-    ["driver", "follower"].map(str::to_owned)
-}
-
-fn plain_thickness() -> f64 {
-    policy::DEFAULT_THICKNESS
-}
-
-fn gear(name: &str, file: FileGear) -> Result<Gear, String> {
-    let ring = |what: &str, points: Vec<[f64; 2]>| -> Result<Vec<Point>, String> {
-        let points: Vec<Point> = points.into_iter().map(|[x, y]| Point::new(x, y)).collect();
-        within_reach(&points).map_err(|far| format!("the {what} of its {name} {far}"))?;
-        if points.len() < 3 || geometry::signed_area(&points) <= 0.0 {
-            return Err(format!(
-                "the {what} of its {name} is not a counter-clockwise curve with an area"
-            ));
-        }
-        Ok(points)
-    };
+fn gear(side: Side, file: GearRecord) -> Result<Gear, String> {
     let most = policy::TEETH_RANGE.1;
     if !(1..=most).contains(&file.teeth) {
-        return Err(format!("its {name} has {} teeth instead of 1 to {most}", file.teeth));
+        return Err(format!("its {side} has {} teeth instead of 1 to {most}", file.teeth));
     }
     let input: Vec<Point> = file.input.into_iter().map(|[x, y]| Point::new(x, y)).collect();
-    within_reach(&input).map_err(|far| format!("the input of its {name} {far}"))?;
-    let outline = ring("outline", file.outline)?;
-    let bore = file.bore.map(|b| ring("bore", b)).transpose()?;
+    within_reach(&input).map_err(|far| format!("the input of its {side} {far}"))?;
+    let outline = ring("outline", side, file.outline)?;
+    let bore = file.bore.map(|b| ring("bore", side, b)).transpose()?;
     if bore.as_ref().is_some_and(|b| !geometry::contains(b, Point::origin())) {
-        return Err(format!("the bore of its {name} is not about the axis"));
+        return Err(format!("the bore of its {side} is not about the axis"));
     }
     Ok(Gear {
-        name: name.to_owned(),
+        name: side.name().to_owned(),
         outline,
         bore,
-        pitch_curve: ring("pitch curve", file.pitch_curve)?,
+        pitch_curve: ring("pitch curve", side, file.pitch_curve)?,
         input,
         teeth: file.teeth,
-        fittings: file.fittings.read(name)?,
+        fittings: file.fittings.unwrap_or_default().read(side.name())?,
     })
+}
+
+/// A counter-clockwise curve of a gear with an area.
+pub(super) fn ring(what: &str, side: Side, points: Vec<[f64; 2]>) -> Result<Vec<Point>, String> {
+    let points: Vec<Point> = points.into_iter().map(|[x, y]| Point::new(x, y)).collect();
+    within_reach(&points).map_err(|far| format!("the {what} of its {side} {far}"))?;
+    if points.len() < 3 || geometry::signed_area(&points) <= 0.0 {
+        return Err(format!(
+            "the {what} of its {side} is not a counter-clockwise curve with an area"
+        ));
+    }
+    Ok(points)
 }
 
 /// Passes a name that can stand in files and messages.
@@ -348,10 +310,10 @@ pub(super) fn within_reach(points: &[Point]) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Record;
     use super::*;
     use crate::input::{LoadOptions, load};
-    use crate::pipeline::{DesignOptions, ToothCount, design};
+    use crate::pipeline::{Design, DesignOptions, ToothCount, design};
+    use serde_json::Value;
 
     fn square(side: f64) -> Value {
         serde_json::json!([[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]])
@@ -380,7 +342,23 @@ mod tests {
         assert_eq!(read.assembly(), made.assembly);
         assert_eq!(read.names, made.names);
         assert_eq!((read.ratio, read.module), (1.0, made.pair.module));
-        assert_eq!(serde_json::from_value::<DesignOptions>(read.settings).unwrap(), made.options);
+        let stages = read.stages(Control::unwatched()).unwrap().unwrap();
+        let again = Design::of(&stages).unwrap();
+        assert_eq!((&again.options, &again.used), (&made.options, &made.used));
+        assert_eq!(
+            (&again.diagnostics, &again.pair.records),
+            (&made.diagnostics, &made.pair.records)
+        );
+        assert_eq!(again.assembly, made.assembly);
+        assert_eq!(again.contact.summary.lost_poses, made.contact.summary.lost_poses);
+        let error =
+            |d: &Design| d.exact_contact.summary.transmission_error_pitch.unwrap().p99_deviation;
+        assert!((error(&again) - error(&made)).abs() < 1e-9);
+        let written = serde_json::to_value(Record::new(&again)).unwrap();
+        assert_eq!(
+            written["settings"],
+            serde_json::to_value(Record::new(&made)).unwrap()["settings"]
+        );
     }
 
     #[test]

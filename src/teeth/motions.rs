@@ -22,6 +22,16 @@ impl LoadedMotion {
         Self { transmission, offset }
     }
 
+    /// The motion from angle 0.
+    pub(crate) fn transmission(&self) -> &Transmission {
+        &self.transmission
+    }
+
+    /// Follower angle at driver angle 0, radians.
+    pub(crate) fn offset(&self) -> f64 {
+        self.offset
+    }
+
     fn rolling(&self, center_distance: f64) -> Rolling {
         let centrodes = Centrodes { transmission: self.transmission.clone(), center_distance };
         Rolling::with_offset(centrodes, self.offset)

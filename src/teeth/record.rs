@@ -7,7 +7,8 @@ use crate::gear::Side;
 use crate::policy;
 
 /// How a tooth differs from the rack's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ToothShape {
     /// Full height, no flank steeper than the pressure angle asked for; flatter where the pitch curve slopes.
     Full,
@@ -20,7 +21,7 @@ pub enum ToothShape {
 }
 
 /// One tooth of one gear.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ToothRecord {
     /// The gear.
     pub side: Side,

@@ -49,7 +49,7 @@ const FOUND_CENTERS: usize = 4;
 const CENTERS_APART: f64 = 0.3;
 
 /// What a refinement changed; the measure is `t (1 - IoU_D) + (1 - t) (1 - IoU_F) + kappa omega max psi'`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Refinement {
     /// The measure of what the search gave.
     pub before: f64,
