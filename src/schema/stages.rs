@@ -1,6 +1,7 @@
 //! The stages of a design as `design.json` keeps them, beside what other programs read of it.
 //!
-//! What a stage was made from stands here; contact and strength are worked out again from it, which gives the same figures.
+//! What a stage was made from stands here; contact and strength are worked out again from it, which gives the same
+//! figures but for rounding.
 
 use std::sync::Arc;
 
