@@ -71,6 +71,7 @@ fn turned_over(shape: &Shape, axis: &mut Option<Point>) -> anyhow::Result<Shape>
     other.name.push_str(" mirrored");
     other.raw = outline(&shape.raw)?;
     other.outline = outline(&shape.outline)?;
+    other.inner = shape.inner.mapped(over);
     Ok(other)
 }
 

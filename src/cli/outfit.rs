@@ -2,7 +2,8 @@
 
 use centrode::pipeline::BoreChoice;
 use centrode::pipeline::outfit::{
-    Base, HubChoice, Label, LabelPlace, Lightening, Mount, Outfit, Screws,
+    Base, DrawnHoles, FaceChoice, FaceFit, FaceStyle, HubChoice, Label, LabelPlace, Lightening, Mount,
+    Outfit, Screws,
 };
 use centrode::policy;
 use centrode::schema::words;
@@ -55,6 +56,18 @@ pub(crate) struct OutfitArgs {
     /// Where the letters go: near the axis, or above, below, left or right of it
     #[arg(long, default_value = default_text("letters-at"), value_name = "PLACE", value_parser = units::label_place)]
     pub(crate) letters_at: LabelPlace,
+    /// The inner drawing of the shapes on the gears' faces, where they have one
+    #[arg(long, value_enum, default_value_t = FaceArg::None)]
+    pub(crate) face: FaceArg,
+    /// Depth of the inner drawing, or its height [default: 0.4mm, raised 0.6mm]
+    #[arg(long, value_name = "LENGTH", value_parser = units::positive_length, allow_hyphen_values = true)]
+    pub(crate) face_depth: Option<f64>,
+    /// How the inner drawing lies on the gear: moved along with its outline, or undistorted and clipped
+    #[arg(long, value_enum, default_value_t = FaceFitArg::Follow)]
+    pub(crate) face_fit: FaceFitArg,
+    /// Holes of the drawings, such as the counters of letters: holes of the gears where walls stay, or filled in
+    #[arg(long, value_enum, default_value_t = HolesArg::Keep)]
+    pub(crate) holes: HolesArg,
     /// Arrowheads 0.4 mm deep that meet when the gears are put together right; auto: with letters or a base
     #[arg(long, value_enum, default_value_t = MarkArg::Auto)]
     pub(crate) phase_mark: MarkArg,
@@ -95,6 +108,37 @@ pub(crate) enum MarkArg {
     Off,
 }
 
+/// What becomes of the inner drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FaceArg {
+    /// Left out
+    None,
+    /// Sunk into the face
+    Engrave,
+    /// Raised on the face
+    Raise,
+    /// Cut through where walls stay
+    Cut,
+}
+
+/// How the inner drawing lies on the gear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FaceFitArg {
+    /// Moved along with the outline
+    Follow,
+    /// Undistorted, clipped to the face
+    Keep,
+}
+
+/// What becomes of holes of the drawings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum HolesArg {
+    /// Holes of the gears where walls stay
+    Keep,
+    /// Filled in
+    Fill,
+}
+
 impl OutfitArgs {
     /// The bore asked for; unless one is, that of what the gears turn on.
     pub(crate) fn bore(&self) -> Option<BoreChoice> {
@@ -122,6 +166,23 @@ impl OutfitArgs {
             }),
             lightening: self.lightening.unwrap_or_default(),
             label: label(&self.emboss, true).or_else(|| label(&self.engrave, false)),
+            face: FaceChoice {
+                style: match self.face {
+                    FaceArg::None => FaceStyle::None,
+                    FaceArg::Engrave => FaceStyle::Engrave,
+                    FaceArg::Raise => FaceStyle::Raise,
+                    FaceArg::Cut => FaceStyle::Cut,
+                },
+                depth: self.face_depth,
+                fit: match self.face_fit {
+                    FaceFitArg::Follow => FaceFit::Follow,
+                    FaceFitArg::Keep => FaceFit::Keep,
+                },
+            },
+            holes: match self.holes {
+                HolesArg::Keep => DrawnHoles::Keep,
+                HolesArg::Fill => DrawnHoles::Fill,
+            },
             phase_mark: match self.phase_mark {
                 MarkArg::Auto => None,
                 MarkArg::On => Some(true),

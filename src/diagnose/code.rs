@@ -99,6 +99,14 @@ codes! {
     NoPhaseMark = "no-phase-mark",
     /// There is no room for lightening holes.
     NoLightening = "no-lightening",
+    /// `count` of `of` holes of a drawing, or areas to be cut through, are left whole for want of walls.
+    HolesLost = "holes-lost",
+    /// There is no room for the inner drawing.
+    FaceLost = "face-lost",
+    /// A `share` of the inner drawing is left out, for edges, axle or fittings are there.
+    FaceClipped = "face-clipped",
+    /// `widened` lines of the inner drawing were widened to the `nozzle`, `dropped` specks left out.
+    FaceLines = "face-lines",
     /// There is no room for the gear's name.
     NameHasNoRoom = "name-has-no-room",
     /// The gear's name cannot be written with the letters there are.

@@ -224,6 +224,32 @@ impl fmt::Display for Diagnostic {
                 "the {} has no room for lightening holes; ask for fewer, or make the pair larger",
                 gear()
             ),
+            Code::HolesLost => write!(
+                f,
+                "{:.0} of {:.0} holes drawn in the {} are left whole: no wall would stay beside them; make the pair larger, or the bore smaller",
+                figure("count"),
+                figure("of"),
+                gear()
+            ),
+            Code::FaceLost => write!(
+                f,
+                "the {} has no room for its inner drawing; make the pair larger, or leave --face out",
+                gear()
+            ),
+            Code::FaceClipped => write!(
+                f,
+                "{:.0} % of the drawing on the {} is left out: teeth, axle or fittings are there",
+                100.0 * figure("share"),
+                gear()
+            ),
+            Code::FaceLines => write!(
+                f,
+                "in the drawing on the {}, {:.0} lines were widened to the nozzle of {:.2} mm and {:.0} specks left out",
+                gear(),
+                figure("widened"),
+                figure("nozzle"),
+                figure("dropped")
+            ),
             Code::NameHasNoRoom => write!(
                 f,
                 "the name does not fit on the {}; give a shorter text, or make the pair larger",

@@ -14,7 +14,9 @@ pub use polygon::{
     area, bounds, centroid, contains, first_self_crossing, intersection_over_union, perimeter,
     signed_area,
 };
-pub use region::{Face, difference, largest, offset, positive_part, positive_parts, union};
+pub use region::{
+    Face, common, difference, grown, largest, offset, positive_part, positive_parts, union, without,
+};
 
 /// A point in the plane, in mm unless a function says otherwise.
 pub type Point = nalgebra::Point2<f64>;

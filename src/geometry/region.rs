@@ -44,6 +44,32 @@ pub fn positive_parts(rings: &[Vec<Point>]) -> Vec<Face> {
     faces(rings.simplify_shape_as::<i64>(FillRule::Positive))
 }
 
+/// What of a region lies in another, each given by its boundaries: counter-clockwise round areas, clockwise round holes.
+#[must_use]
+pub fn common(region: &[Vec<Point>], other: &[Vec<Point>]) -> Vec<Face> {
+    overlaid(region, other, OverlayRule::Intersect)
+}
+
+/// What of a region lies outside of another, given likewise.
+#[must_use]
+pub fn without(region: &[Vec<Point>], other: &[Vec<Point>]) -> Vec<Face> {
+    overlaid(region, other, OverlayRule::Difference)
+}
+
+fn overlaid(a: &[Vec<Point>], b: &[Vec<Point>], rule: OverlayRule) -> Vec<Face> {
+    let [a, b] = [a, b].map(|rings| rings.iter().map(|r| plain(r)).collect::<Vec<_>>());
+    faces(a.overlay_as::<i64>(&b, rule, FillRule::NonZero))
+}
+
+/// Faces grown by `distance`, or made smaller where it is negative; corners as with [`offset`].
+#[must_use]
+pub fn grown(region: &[Face], distance: f64, chord_angle: f64) -> Vec<Face> {
+    let style = OutlineStyle::new(distance).line_join(LineJoin::Round(chord_angle));
+    let shapes: Vec<Vec<_>> =
+        region.iter().map(|face| face.iter().map(|ring| plain(ring)).collect()).collect();
+    faces(shapes.outline_as::<i64>(&style))
+}
+
 /// The face with the largest outer boundary.
 #[must_use]
 pub fn largest(faces: Vec<Face>) -> Option<Face> {

@@ -1,6 +1,7 @@
 //! Letters as shapes: `text:A`.
 
-use crate::geometry::{self, LetteringError, lettering};
+use super::inner::{Drawing, Inner};
+use crate::geometry::{self, LetteringError, Point, lettering};
 use crate::outline::Outline;
 
 /// Begins the name of a shape that is a text.
@@ -33,12 +34,11 @@ pub enum LettersError {
     },
 }
 
-/// The edge of a letter, or of letters that hang together; holes in it are left out, for a gear is drawn as seen from its
-/// axis.
+/// A letter, or letters that hang together, with the holes in it.
 ///
 /// # Errors
 /// See [`LettersError`].
-pub(super) fn outline_of(text: &str) -> Result<Outline, LettersError> {
+pub(super) fn shape(text: &str) -> Result<Drawing, LettersError> {
     let made = lettering(text, HEIGHT)?;
     // A dot over an i or a j is a piece too, and so are both lines of an equals sign.
     let [face] = made.faces.as_slice() else {
@@ -46,7 +46,10 @@ pub(super) fn outline_of(text: &str) -> Result<Outline, LettersError> {
     };
     let none = || LettersError::NoOutline { text: text.to_owned() };
     let edge = face.first().filter(|ring| geometry::area(ring) > 0.0).ok_or_else(none)?;
-    Outline::new(edge.clone()).map_err(|_| none())
+    let outline = Outline::new(edge.clone()).map_err(|_| none())?;
+    let turned = |ring: &Vec<Point>| ring.iter().rev().copied().collect();
+    let holes = face[1..].iter().map(turned).collect();
+    Ok(Drawing { inner: Inner { holes, ..Inner::default() }, ..outline.into() })
 }
 
 #[cfg(test)]
@@ -55,12 +58,18 @@ mod tests {
 
     #[test]
     fn a_letter_is_a_shape_and_several_are_not() {
-        let outline = outline_of("A").unwrap();
+        let drawing = shape("A").unwrap();
+        let outline = &drawing.outline;
         let (low, high) = geometry::bounds(outline.points());
         assert!((high.y - low.y - HEIGHT).abs() < 0.1);
-        // Its counter is filled in.
-        assert!(geometry::contains(outline.points(), nalgebra::center(&low, &high)));
-        assert!(matches!(outline_of("AB"), Err(LettersError::Pieces { pieces: 2, .. })));
-        assert!(matches!(outline_of(" "), Err(LettersError::Lettering(_))));
+        // Its counter is filled in, and a hole.
+        let middle = nalgebra::center(&low, &high);
+        assert!(geometry::contains(outline.points(), middle));
+        assert!(
+            drawing.inner.holes.len() == 1 && geometry::contains(&drawing.inner.holes[0], middle)
+        );
+        assert_eq!(shape("B").unwrap().inner.holes.len(), 2);
+        assert!(matches!(shape("AB"), Err(LettersError::Pieces { pieces: 2, .. })));
+        assert!(matches!(shape(" "), Err(LettersError::Lettering(_))));
     }
 }

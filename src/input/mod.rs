@@ -8,6 +8,7 @@ mod choose;
 mod contours;
 mod dxf;
 mod error;
+mod inner;
 mod join;
 mod letters;
 mod nature;
@@ -25,6 +26,7 @@ mod toothed;
 
 pub use dxf::DxfError;
 pub use error::InputError;
+pub use inner::{Inner, Patch};
 pub use letters::LettersError;
 pub use note::Note;
 pub use picture::{ImageError, from_image};

@@ -1,7 +1,8 @@
 //! Drawings, to be made into gears.
 
-use super::contours::Contours;
-use super::letters::{PREFIX, outline_of};
+use super::contours::{Contour, Contours};
+use super::inner::{Drawing, Inner};
+use super::letters::{self, PREFIX};
 use super::nature::Nature;
 use super::note::Note;
 use super::recognise::{Format, recognised};
@@ -49,6 +50,8 @@ pub struct Shape {
     pub raw: Outline,
     /// The outline after smoothing, in the same frame.
     pub outline: Outline,
+    /// What is drawn inside the outline, in the same frame.
+    pub inner: Inner,
     /// What a reader should know.
     pub notes: Vec<Note>,
 }
@@ -66,13 +69,13 @@ const NOTED_TEETH: usize = 8;
 /// See [`InputError`].
 pub fn load(source: &str, options: &LoadOptions) -> Result<Shape, InputError> {
     if let Some(text) = source.strip_prefix(PREFIX) {
-        return Ok(smoothed(quoted(text), outline_of(text)?, Vec::new(), options));
+    return Ok(smoothed(quoted(text), letters::shape(text)?, options));
     }
     let built_in = library::svg(source).filter(|_| !Path::new(source).is_file());
     if let Some(text) = built_in {
         let failed = |error| InputError::Svg { path: source.to_owned(), error };
-        let raw = svg::from_svg(text.as_bytes(), options.flatten_tolerance).map_err(failed)?;
-        return Ok(smoothed(source.to_owned(), raw, Vec::new(), options));
+        let drawing = svg::shape(text.as_bytes(), options.flatten_tolerance, None, options.join);
+        return Ok(smoothed(source.to_owned(), drawing.map_err(failed)?, options));
     }
     let source = Source::new(source);
     let bytes = read_file(source.path)?;
@@ -102,14 +105,14 @@ fn read(bytes: &[u8], source: Source<'_>, options: &LoadOptions) -> Result<Shape
         path: path(),
         what: what.unwrap_or("no drawing"),
     })?;
-    let (raw, mut notes) = match format {
+    let mut drawing = match format {
         Format::Svg => svg::shape(bytes, options.flatten_tolerance, source.part, options.join)
             .map_err(|error| InputError::Svg { path: path(), error })?,
         Format::Picture => picture::shape(bytes, options.threshold)
             .map_err(|error| InputError::Image { path: path(), error })?,
         Format::Table => {
             let outline = table::from_columns(bytes);
-            (outline.map_err(|error| InputError::Points { path: path(), error })?, Vec::new())
+            outline.map_err(|error| InputError::Points { path: path(), error })?.into()
         }
         Format::Json => of_contours(record::contours(bytes, source, None)?, source)?,
         Format::Dxf => {
@@ -129,7 +132,7 @@ fn read(bytes: &[u8], source: Source<'_>, options: &LoadOptions) -> Result<Shape
         }
     };
     let nature = Nature::of(&super::contours::Contour {
-        points: raw.points().to_vec(),
+        points: drawing.outline.points().to_vec(),
         closed: true,
         ..super::contours::Contour::default()
     });
@@ -137,23 +140,31 @@ fn read(bytes: &[u8], source: Source<'_>, options: &LoadOptions) -> Result<Shape
         && teeth >= NOTED_TEETH
         && format != Format::Picture
     {
-        notes.push(Note::TeethNotKept { teeth });
+        drawing.notes.push(Note::TeethNotKept { teeth });
     }
-    Ok(smoothed(name, raw, notes, options))
+    Ok(smoothed(name, drawing, options))
 }
 
-fn of_contours(mut made: Contours, source: Source<'_>) -> Result<(Outline, Vec<Note>), InputError> {
+fn of_contours(mut made: Contours, source: Source<'_>) -> Result<Drawing, InputError> {
     let source = Source { part: source.part.filter(|_| !made.part_used), ..source };
     let chosen = choose::shape(&mut made, source)?;
     let outline = repaired(chosen.outer.points)
         .map_err(|error| InputError::Outline { path: source.path(), error })?;
-    Ok((outline, made.notes))
+    let holes = chosen.holes.into_iter().filter(|h| !h.dashed);
+    let turned = |h: Contour| match Outline::new(h.points) {
+        Ok(edge) => Some(edge.points().to_vec()),
+        Err(_) => None,
+    };
+    let inner = Inner { holes: holes.filter_map(turned).collect(), ..Inner::default() };
+    Ok(Drawing { outline, inner, notes: made.notes })
 }
 
-fn smoothed(name: String, raw: Outline, notes: Vec<Note>, options: &LoadOptions) -> Shape {
+fn smoothed(name: String, drawing: Drawing, options: &LoadOptions) -> Shape {
+    let Drawing { outline: raw, inner, notes } = drawing;
     let outline = smooth(&raw, options.smoothing, options.samples.max(16));
-    Shape { name, raw, outline, notes }
+    Shape { name, raw, outline, inner, notes }
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -10,6 +10,7 @@ use crate::control::{Control, StageName};
 use crate::diagnose::{Code, Diagnostic, Place, Verdict};
 use crate::gear::{Pair, Side};
 use crate::geometry::Point;
+use crate::input::Inner;
 use crate::law::Segment;
 use crate::policy;
 use crate::solid::Bore;
@@ -84,7 +85,9 @@ impl Part {
             found.extend(sector::cut(&mut assembly, analysed, cut, control)?);
         }
         let names = &sized.wanted.names;
-        found.extend(outfit::fit_out(&mut assembly, &self.outfit, names, sized.module)?);
+        let drawings: Vec<Inner> = Side::BOTH.map(|side| sized.inner(side)).to_vec();
+        let outfit = &self.outfit;
+        found.extend(outfit::fit_out(&mut assembly, outfit, names, sized.module, &drawings)?);
         let strength = analysed.under(self.load, self.thickness, self.pressure_angle);
         control.progress(StageName::Outfitted, 1.0);
         Ok(Outfitted { proven: proven.clone(), assembly, strength, diagnostics: found })

@@ -10,7 +10,7 @@ use crate::diagnose::{Code, Diagnostic, Place};
 use crate::fit::{self, FittedGear, LimitCost, Limits};
 use crate::gear::{Motion, Pair, Side};
 use crate::geometry::{self, Point};
-use crate::input::Shape;
+use crate::input::{Inner, Shape};
 use crate::pitch::{Centrodes, Transmission};
 use crate::policy;
 
@@ -124,6 +124,14 @@ impl Sized {
         self.centrodes.transmission.cycle()
     }
 
+    /// What is drawn inside of a gear's shape, as it lies on the gear.
+    pub(super) fn inner(&self, side: Side) -> Inner {
+        let placed = |d: &super::Drawn| {
+            d.shape.inner.mapped(placing(&d.shape, &d.gear, &self.pitch_curves[side]))
+        };
+        self.wanted.drawings[side].as_ref().map_or_else(Inner::default, placed)
+    }
+
     fn found(&self) -> Vec<Diagnostic> {
         let (stage, wanted) = (StageName::Sized, &self.wanted);
         let mut found = Vec::new();
@@ -176,9 +184,19 @@ pub(super) fn scaled(
     }
 }
 
-/// The drawing as it lies on its gear: the fitted pose, scaled to the area of the pitch curve.
+/// The drawing as it lies on its gear.
 fn placed_input(shape: &Shape, gear: &FittedGear, pitch_curve: &[Point]) -> Vec<Point> {
-    let placed: Vec<Point> = shape.raw.points().iter().map(|p| gear.placement.apply(*p)).collect();
+    shape.raw.points().iter().map(placing(shape, gear, pitch_curve)).collect()
+}
+
+/// What takes a drawing to its gear: the fitted pose, scaled to the area of the pitch curve.
+fn placing(
+    shape: &Shape,
+    gear: &FittedGear,
+    pitch_curve: &[Point],
+) -> impl Fn(&Point) -> Point + use<> {
+    let placement = gear.placement;
+    let placed: Vec<Point> = shape.raw.points().iter().map(|p| placement.apply(*p)).collect();
     let scale = (geometry::area(pitch_curve) / geometry::area(&placed)).sqrt();
-    placed.into_iter().map(|p| p * scale).collect()
+    move |p| placement.apply(*p) * scale
 }

@@ -6,6 +6,7 @@ mod saved;
 mod settings;
 mod stages;
 mod train_file;
+mod typed;
 pub mod words;
 
 pub use record::{RECORD_VERSION, Record, run_record};

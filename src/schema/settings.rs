@@ -4,63 +4,23 @@
 //! out has the default of the command line, which takes what it shows as defaults from here ([`default_text`]).
 
 use std::collections::BTreeMap;
-use std::fmt::Display;
 use std::sync::LazyLock;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::typed::{Typed, deg, mm, text};
 use super::words;
 use crate::diagnose::Limits;
 use crate::fit::{FitOptions, Fixed, Search};
 use crate::geometry::Point;
 use crate::law::Segment;
 use crate::meshing::{Direction, Drive, DynamicsOptions, proving_runs};
-use crate::pipeline::outfit::{HubChoice, Label, Lightening, Outfit, Screws};
+use crate::pipeline::outfit::{
+    DrawnHoles, FaceChoice, FaceFit, FaceStyle, HubChoice, Label, Lightening, Outfit, Screws,
+};
 use crate::pipeline::{DesignOptions, Scale, TeethStyle, ToothCount};
 use crate::policy;
 use crate::strength::Load;
-
-/// A number, or its text as it would be typed.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(untagged)]
-enum Typed {
-    Number(f64),
-    Text(String),
-}
-
-impl Typed {
-    fn read<T>(self, parse: impl FnOnce(&str) -> Result<T, String>) -> Result<T, String> {
-        match self {
-            Self::Number(number) => parse(&number.to_string()),
-            Self::Text(text) => parse(&text),
-        }
-    }
-}
-
-impl Serialize for Typed {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            // Whole numbers stay whole in files.
-            Self::Number(v) if v.fract() == 0.0 && v.abs() < 1e15 => {
-                serializer.serialize_i64(*v as i64)
-            }
-            Self::Number(v) => serializer.serialize_f64(*v),
-            Self::Text(text) => serializer.serialize_str(text),
-        }
-    }
-}
-
-fn mm(value: f64) -> Typed {
-    Typed::Number(value)
-}
-
-fn deg(value: f64) -> Typed {
-    Typed::Number(words::in_degrees(value))
-}
-
-fn text(value: impl Display) -> Typed {
-    Typed::Text(value.to_string())
-}
 
 /// The keys in the order of the command line's help.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -129,6 +89,11 @@ struct Settings {
     #[serde(skip_serializing_if = "Option::is_none")]
     letter_height: Option<Typed>,
     letters_at: String,
+    face: FaceStyle,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    face_depth: Option<Typed>,
+    face_fit: FaceFit,
+    holes: DrawnHoles,
     phase_mark: MarkWord,
     chamfer: Typed,
     base: String,
@@ -298,6 +263,10 @@ impl Settings {
             letter_height: label.and_then(|l| l.height).map(mm),
             letters_at: words::label_place_text(label.map(|l| l.place).unwrap_or_default())
                 .to_owned(),
+            face: outfit.face.style,
+            face_depth: outfit.face.depth.map(mm),
+            face_fit: outfit.face.fit,
+            holes: outfit.holes,
             phase_mark: match outfit.phase_mark {
                 None => MarkWord::Auto,
                 Some(true) => MarkWord::On,
@@ -440,6 +409,12 @@ impl Settings {
             }),
             lightening: lightening.transpose()?.unwrap_or_default(),
             label: label(&self.emboss, true).or_else(|| label(&self.engrave, false)),
+            face: FaceChoice {
+                style: self.face,
+                depth: maybe("face-depth", self.face_depth.clone())?,
+                fit: self.face_fit,
+            },
+            holes: self.holes,
             phase_mark: match self.phase_mark {
                 MarkWord::Auto => None,
                 MarkWord::On => Some(true),

@@ -110,10 +110,22 @@ fn blank(gear: &Gear, thickness: f64) -> Result<(Solid, Expected), SolidError> {
     Ok((Solid::from_mesh(&made.mesh), Expected { volume, genus: 0 }))
 }
 
+/// Something that a gear carries: its name, its edge and its holes.
+type Carry<'a> = (&'a str, &'a [Point], &'a [Vec<Point>]);
+
+/// Whether two of them do not touch: each lies outside of the other, or in one of its holes.
+fn clear(a: &Carry<'_>, b: &Carry<'_>) -> bool {
+    let within = |inner: &Carry<'_>, outer: &Carry<'_>| {
+        let hole = outer.2.iter().find(|hole| geometry::contains(hole, inner.1[0]));
+        hole.is_some_and(|hole| distance_between(hole, inner.1) > 0.0)
+    };
+    apart(a.1, b.1) || within(a, b) || within(b, a)
+}
+
 /// The rings of what a gear carries.
 struct Carried<'a> {
     /// Openings and marks with their names.
-    rings: Vec<(&'a str, &'a [Point])>,
+    rings: Vec<Carry<'a>>,
     hub: Option<Vec<Point>>,
 }
 
@@ -126,17 +138,17 @@ impl<'a> Carried<'a> {
             what: what.to_owned(),
             why: why.to_owned(),
         };
-        let mut rings: Vec<(&str, &[Point])> = Vec::new();
+        let mut rings: Vec<Carry<'_>> = Vec::new();
         for opening in &fittings.openings {
-            rings.push((&opening.name, &opening.ring));
+            rings.push((&opening.name, &opening.ring, &[]));
         }
         for mark in &fittings.marks {
             if !mark.height.is_finite() || mark.height == 0.0 || mark.face.is_empty() {
                 return Err(outside(&mark.name, "it has no height or no edge"));
             }
-            rings.push((&mark.name, &mark.face[0]));
+            rings.push((&mark.name, &mark.face[0], &mark.face[1..]));
         }
-        for (name, ring) in &rings {
+        for (name, ring, _) in &rings {
             simple(&format!("{}'s {name}", gear.name), ring)?;
             let within = geometry::contains(&gear.outline, ring[0])
                 && distance_between(&gear.outline, ring) > wall;
@@ -172,16 +184,16 @@ impl<'a> Carried<'a> {
     fn keep_apart(&self, gear: &Gear) -> Result<(), SolidError> {
         let mut all = self.rings.clone();
         match (&self.hub, &gear.bore) {
-            (Some(ring), _) => all.push(("the hub", ring)),
-            (None, Some(hole)) => all.push(("the bore", hole)),
+            (Some(ring), _) => all.push(("the hub", ring, &[])),
+            (None, Some(hole)) => all.push(("the bore", hole, &[])),
             (None, None) => {}
         }
-        for (i, (second, b)) in all.iter().enumerate() {
-            if let Some((first, _)) = all[..i].iter().find(|(_, a)| !apart(a, b)) {
+        for (i, second) in all.iter().enumerate() {
+            if let Some(first) = all[..i].iter().find(|first| !clear(first, second)) {
                 return Err(SolidError::Overlap {
                     part: gear.name.clone(),
-                    first: (*first).to_owned(),
-                    second: (*second).to_owned(),
+                    first: first.0.to_owned(),
+                    second: second.0.to_owned(),
                 });
             }
         }

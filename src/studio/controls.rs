@@ -82,6 +82,7 @@ const NUMBERS: &[(&str, Look)] = &[
     ("chamfer", number("mm", 0.0, 1.5, 0.05)),
     ("base-thickness", number("mm", 1.0, 20.0, 0.5)),
     ("letter-height", number("mm", 2.0, 15.0, 0.5)),
+    ("face-depth", number("mm", 0.1, 5.0, 0.1)),
     ("nozzle", number("mm", 0.1, 1.2, 0.05)),
     ("curve-tolerance", number("mm", 0.0005, 0.05, 0.0005)),
     ("kerf", number("mm", 0.0, 1.0, 0.01)),

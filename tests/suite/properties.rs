@@ -5,7 +5,7 @@
 use centrode::assembly::PlacedGear;
 use centrode::fit::{Ratio, Search};
 use centrode::geometry::{self, Point};
-use centrode::input::Shape;
+use centrode::input::{Inner, Shape};
 use centrode::outline::{Outline, repaired};
 use centrode::pipeline::{Design, DesignOptions, ToothCount, design};
 use proptest::prelude::*;
@@ -21,7 +21,7 @@ const POSES: usize = 24;
 const SHARED: f64 = 1e-4;
 
 fn shape(name: &str, outline: Outline) -> Shape {
-    Shape { name: name.to_owned(), raw: outline.clone(), outline, notes: Vec::new() }
+    Shape { name: name.to_owned(), raw: outline.clone(), outline, inner: Inner::default(), notes: Vec::new() }
 }
 
 /// A star-shaped blob: a circle with waves of falling height.

@@ -3,7 +3,7 @@
 mod contour;
 mod light;
 
-use super::note::Note;
+use super::inner::Drawing;
 use crate::geometry::Point;
 use crate::outline::{Outline, OutlineError, repaired};
 use crate::policy;
@@ -81,17 +81,14 @@ pub enum ImageError {
 /// # Errors
 /// See [`ImageError`]. The size is checked from the header, before anything is decoded.
 pub fn from_image(bytes: &[u8], threshold: Option<u8>) -> Result<Outline, ImageError> {
-    shape(bytes, threshold).map(|(outline, _)| outline)
+    shape(bytes, threshold).map(|drawing| drawing.outline)
 }
 
 /// The silhouette, and what a reader should know.
 ///
 /// # Errors
 /// See [`ImageError`].
-pub(super) fn shape(
-    bytes: &[u8],
-    threshold: Option<u8>,
-) -> Result<(Outline, Vec<Note>), ImageError> {
+pub(super) fn shape(bytes: &[u8], threshold: Option<u8>) -> Result<Drawing, ImageError> {
     let (grey, clear_level) = samples(&decoded(bytes)?);
     let (dark, light) = grey.range();
     if light.saturating_sub(dark) < policy::IMAGE_CONTRAST {
@@ -123,7 +120,7 @@ pub(super) fn shape(
     }
     let height = f64::from(grey.height);
     let points = contour.iter().map(|p| Point::new(scale * p.x, height - scale * p.y)).collect();
-    Ok((repaired(points)?, notes))
+    Ok(Drawing { notes, ..repaired(points)?.into() })
 }
 
 /// The picture and the brightness that separates shape from ground in it: with the light on its ground taken out where that

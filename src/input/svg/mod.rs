@@ -1,11 +1,13 @@
 //! SVG drawings: what viewers show of them, as one outline or as contours.
 
 mod guard;
+mod inner;
 mod region;
 mod scene;
 
 use super::choose;
 use super::contours::{Contour, Contours};
+use super::inner::Drawing;
 use super::join;
 use super::nature::Nature;
 use super::note::Note;
@@ -168,7 +170,7 @@ pub enum SvgError {
 /// # Errors
 /// See [`SvgError`].
 pub fn from_svg(text: &[u8], tolerance: f64) -> Result<Outline, SvgError> {
-    shape(text, tolerance, None, None).map(|(outline, _)| outline)
+    shape(text, tolerance, None, None).map(|drawing| drawing.outline)
 }
 
 /// The shape of a drawing, or the part of it that is named, and what a reader should know.
@@ -180,7 +182,7 @@ pub(super) fn shape(
     tolerance: f64,
     part: Option<&str>,
     join: Option<f64>,
-) -> Result<(Outline, Vec<Note>), SvgError> {
+) -> Result<Drawing, SvgError> {
     let text = decoded(bytes).ok_or(SvgError::NotText)?;
     let mut scene = Scene::read(&text, tolerance.clamp(1e-6, 0.1), part)?;
     let number = part.and_then(|p| p.parse::<usize>().ok()).filter(|n| *n > 0);
@@ -233,7 +235,9 @@ pub(super) fn shape(
     if points.len() > policy::OUTLINE_VERTICES_KEPT {
         points = simplify(&points, scene.step);
     }
-    Ok((simple(points)?, notes))
+    let outline = simple(points)?;
+    let inner = inner::of(&scene, outline.points());
+    Ok(Drawing { outline, inner, notes })
 }
 
 /// Share of the largest shape from which on a second one is spoken of.
@@ -263,13 +267,15 @@ fn distance(p: Point, a: Point, b: Point) -> f64 {
 }
 
 /// A drawing of lines alone.
-fn lines_as_shape(scene: &Scene, join: Option<f64>) -> Result<(Outline, Vec<Note>), SvgError> {
+fn lines_as_shape(scene: &Scene, join: Option<f64>) -> Result<Drawing, SvgError> {
     let mut contours = lines(scene, scene.items.iter(), join)?;
     let source = Source { path: "", part: None };
     let chosen = choose::shape(&mut contours, source).map_err(|error| SvgError::Lines {
         reason: error.to_string().trim_start_matches(": ").to_owned(),
     })?;
-    Ok((simple(chosen.outer.points)?, contours.notes))
+    let outline = simple(chosen.outer.points)?;
+    let inner = inner::of(scene, outline.points());
+    Ok(Drawing { outline, inner, notes: contours.notes })
 }
 
 /// The lines of items, joined where their ends meet.

@@ -45,11 +45,23 @@ pub(super) struct Item {
     pub(super) even_odd: bool,
     /// The colour of its area; none for lines.
     pub(super) paint: Option<Paint>,
+    /// The colour of its area as it is drawn, also where that is white within a line.
+    pub(super) fill: Option<Paint>,
+    /// Its line as it is drawn, with its width in the drawing's units.
+    pub(super) line: Option<Line>,
     /// White within a line of another colour.
     bordered: bool,
     /// Whether a clip path or mask took something away.
     pub(super) cut: bool,
     pub(super) in_part: bool,
+}
+
+/// A line that is drawn.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    pub(super) paint: Paint,
+    pub(super) width: f64,
+    pub(super) area: Region,
 }
 
 /// A drawing.
@@ -286,12 +298,13 @@ fn item(found: &Found<'_>, step: f64, covers: &[Region]) -> Item {
         contours,
         even_odd,
         paint,
+        fill: fill(path),
+        line: drawn_line(found, step, covers),
         bordered: line.is_some(),
         cut: false,
         in_part: found.in_part,
     };
-    for &clip in &found.clips {
-        let cover = &covers[clip];
+    for cover in found.clips.iter().map(|clip| &covers[*clip]) {
         let whole = item.contours.iter().all(|c| region::holds(cover, &c.points));
         if !whole && paint.is_some() {
             let rings = region::common(&region::of(&item), cover);
@@ -307,6 +320,22 @@ fn item(found: &Found<'_>, step: f64, covers: &[Region]) -> Item {
         }
     }
     item
+}
+
+/// What the line of a path covers, clipped.
+fn drawn_line(found: &Found<'_>, step: f64, covers: &[Region]) -> Option<Line> {
+    let (paint, path) = (stroke(found.path)?, found.path.data());
+    let stroke = found.path.stroke()?.to_tiny_skia();
+    let scale = found.map.fixed_view::<2, 2>(0, 0).determinant().abs().sqrt();
+    // As exact as the curves are: the stroker keeps a quarter of a pixel, of which there are so many to a unit.
+    let fine = ((0.25 * scale / step) as f32).clamp(1e-3, 1e6);
+    let dashed = stroke.dash.as_ref().and_then(|dash| path.dash(dash, fine));
+    let outlined = dashed.as_ref().unwrap_or(path).stroke(&stroke, fine)?;
+    let rings: Vec<Vec<Point>> =
+        flattened(&outlined, &found.map, step).into_iter().map(|c| c.points).collect();
+    let whole = region::filled(&rings, false);
+    let area = found.clips.iter().fold(whole, |area, clip| region::common(&area, &covers[*clip]));
+    Some(Line { paint, width: scale * f64::from(stroke.width), area })
 }
 
 /// Sheets with a border about the drawing are ground.
@@ -494,10 +523,14 @@ fn areas(group: &usvg::Group, map: &Map, step: f64, depth: u32, take: &mut dyn F
 
 /// The subpaths of a path, chords within `tolerance`, mapped.
 fn flatten(path: &usvg::Path, map: &Map, tolerance: f64) -> Vec<Contour> {
+    flattened(path.data(), map, tolerance)
+}
+
+fn flattened(path: &usvg::tiny_skia_path::Path, map: &Map, tolerance: f64) -> Vec<Contour> {
     let at = |p: usvg::tiny_skia_path::Point| mapped(map, p.x, p.y);
     let mut contours = Vec::new();
     let mut points: Vec<Point> = Vec::new();
-    for segment in path.data().segments() {
+    for segment in path.segments() {
         match segment {
             PathSegment::MoveTo(p) => {
                 push_contour(&mut contours, std::mem::take(&mut points), false);

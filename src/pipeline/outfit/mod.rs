@@ -4,6 +4,7 @@
 //! [`Fixture`](crate::assembly::Fixture)s of the assembly; [`crate::solid`] makes solids of them.
 
 mod base;
+mod face;
 mod hub;
 mod knob;
 mod label;
@@ -13,6 +14,7 @@ mod phase;
 mod screws;
 mod stand;
 
+pub use face::{DrawnHoles, FaceChoice, FaceFit, FaceStyle};
 pub use options::{
     Base, Hold, HubChoice, Label, LabelPlace, LabelText, Lightening, Mount, Outfit, OutfitError,
     Screws,
@@ -22,11 +24,12 @@ use crate::assembly::{Assembly, Gear, PlacedGear};
 use crate::control::StageName;
 use crate::diagnose::{Code, Diagnostic};
 use crate::geometry::{self, Point, Vector};
+use crate::input::Inner;
 use crate::policy;
 use crate::solid::circle;
 
 /// Fits the gears out as asked. `names` are what the gears are called in lettering, `module` their module,
-/// mm. What a wish leaves undone for want of room, though it does no harm, comes back as warnings.
+/// mm; `drawings` what is drawn inside of each gear's shape, in its frame. What a wish leaves undone for want of room, though it does no harm, comes back as warnings.
 ///
 /// # Errors
 /// See [`OutfitError`]; the assembly must not be used then.
@@ -35,6 +38,7 @@ pub fn fit_out(
     outfit: &Outfit,
     names: &[String],
     module: f64,
+    drawings: &[Inner],
 ) -> Result<Vec<Diagnostic>, OutfitError> {
     let mut warnings = Vec::new();
     outfit.check(assembly.thickness)?;
@@ -56,6 +60,12 @@ pub fn fit_out(
         if outfit.knob && i == 0 {
             parts.push(knob::add(gear, i, thickness, &mut taken)?);
         }
+        let sizes = (module, outfit.nozzle);
+        let inner = drawings.get(i).filter(|inner| !inner.is_empty());
+        if let Some(inner) = inner {
+            let choice = (outfit.holes, &outfit.face);
+            warnings.extend(face::add_holes(gear, choice, inner, sizes, &mut taken));
+        }
         if outfit.wants_phase_mark()
             && let Some(towards) = partners[i]
             && !phase::add(gear, towards, module, &mut taken)
@@ -69,6 +79,9 @@ pub fn fit_out(
         let towards = partners[i].unwrap_or_else(Vector::x);
         if !lightening::add(gear, outfit.lightening, towards, module, &taken) {
             warnings.push(warning(Code::NoLightening, gear));
+        }
+        if let Some(inner) = inner {
+            warnings.extend(face::add(gear, &outfit.face, inner, sizes, &taken));
         }
     }
     assembly.fixtures.extend(base::parts(assembly, outfit)?);

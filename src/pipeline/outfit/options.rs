@@ -1,5 +1,6 @@
 //! What may be asked for.
 
+use super::{DrawnHoles, FaceChoice};
 use crate::geometry::{LetteringError, Point, lettering};
 use crate::pipeline::BoreChoice;
 use crate::policy;
@@ -19,6 +20,10 @@ pub struct Outfit {
     pub lightening: Lightening,
     /// Lettering on the top faces.
     pub label: Option<Label>,
+    /// The inner drawings of the shapes on the top faces.
+    pub face: FaceChoice,
+    /// What becomes of holes in the drawings.
+    pub holes: DrawnHoles,
     /// Marks that point at each other on the line of centres in the first pose; `None`: where a pair is to
     /// be put together by hand, that is with a base or with lettering.
     pub phase_mark: Option<bool>,
@@ -48,6 +53,8 @@ impl Default for Outfit {
             screws: None,
             lightening: Lightening::None,
             label: None,
+            face: FaceChoice::default(),
+            holes: DrawnHoles::default(),
             phase_mark: None,
             chamfer: 0.0,
             base: Base::None,
@@ -322,6 +329,7 @@ impl Outfit {
                 return Err(OutfitError::BadSize { what, value: f64::from(count), remedy });
             }
         }
+        self.face.check(thickness)?;
         if let Some(label) = &self.label {
             if let Some(height) = label.height {
                 size("the height of the letters", height, most)?;

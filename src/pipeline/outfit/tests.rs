@@ -49,7 +49,7 @@ fn names() -> Vec<String> {
 
 fn fitted(outfit: &Outfit) -> Result<(Assembly, Vec<Diagnostic>), OutfitError> {
     let mut assembly = pair(Bore::Round { diameter: 5.0 });
-    let warnings = fit_out(&mut assembly, outfit, &names(), MODULE)?;
+    let warnings = fit_out(&mut assembly, outfit, &names(), MODULE, &[])?;
     Ok((assembly, warnings))
 }
 
@@ -149,7 +149,7 @@ fn letters_stand_inside_and_leave_the_rest_alone() {
     let mut assembly = pair(Bore::None);
     let outfit = Outfit { label: label(LabelText::Names, true), ..Outfit::default() };
     let names = [long.to_owned(), "do\u{7}ve".to_owned()];
-    let warnings = fit_out(&mut assembly, &outfit, &names, MODULE).unwrap();
+    let warnings = fit_out(&mut assembly, &outfit, &names, MODULE, &[]).unwrap();
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     assert_eq!((warnings[0].code, &*warnings[0].subject), (Code::NameHasNoRoom, "driver"));
     assert_eq!(assembly.gears[1].gear.fittings.marks.len(), 1 + 4);
@@ -223,7 +223,7 @@ fn pins_stand_on_the_axes_and_leave_play() {
     }
     let mut bare = pair(Bore::None);
     let outfit = Outfit { base: Base::Pins, ..Outfit::default() };
-    let error = fit_out(&mut bare, &outfit, &names(), MODULE).unwrap_err();
+    let error = fit_out(&mut bare, &outfit, &names(), MODULE, &[]).unwrap_err();
     assert!(matches!(error, OutfitError::NoBore { .. }));
 }
 
@@ -287,7 +287,7 @@ fn screws_and_bearings_are_held_as_asked() {
     let fitted = |bore: Bore, base| {
         let mut assembly = pair(bore);
         let outfit = Outfit { base, ..Outfit::default() };
-        fit_out(&mut assembly, &outfit, &names(), MODULE)?;
+        fit_out(&mut assembly, &outfit, &names(), MODULE, &[])?;
         assert!(assembly_solids(&assembly).is_ok());
         Ok::<_, OutfitError>(assembly)
     };
