@@ -2,8 +2,8 @@
 
 use centrode::pipeline::BoreChoice;
 use centrode::pipeline::outfit::{
-    Base, DrawnHoles, FaceChoice, FaceFit, FaceStyle, HubChoice, Label, LabelPlace, Lightening, Mount,
-    Outfit, Screws,
+    Base, DrawnHoles, FaceChoice, FaceFit, FaceStyle, HubChoice, Label, LabelPlace, Lightening,
+    Mount, Outfit, Screws,
 };
 use centrode::policy;
 use centrode::schema::words;

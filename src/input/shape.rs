@@ -69,7 +69,7 @@ const NOTED_TEETH: usize = 8;
 /// See [`InputError`].
 pub fn load(source: &str, options: &LoadOptions) -> Result<Shape, InputError> {
     if let Some(text) = source.strip_prefix(PREFIX) {
-    return Ok(smoothed(quoted(text), letters::shape(text)?, options));
+        return Ok(smoothed(quoted(text), letters::shape(text)?, options));
     }
     let built_in = library::svg(source).filter(|_| !Path::new(source).is_file());
     if let Some(text) = built_in {

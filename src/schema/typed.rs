@@ -15,7 +15,10 @@ pub(super) enum Typed {
 }
 
 impl Typed {
-    pub(super) fn read<T>(self, parse: impl FnOnce(&str) -> Result<T, String>) -> Result<T, String> {
+    pub(super) fn read<T>(
+        self,
+        parse: impl FnOnce(&str) -> Result<T, String>,
+    ) -> Result<T, String> {
         match self {
             Self::Number(number) => parse(&number.to_string()),
             Self::Text(text) => parse(&text),

@@ -21,7 +21,13 @@ const POSES: usize = 24;
 const SHARED: f64 = 1e-4;
 
 fn shape(name: &str, outline: Outline) -> Shape {
-    Shape { name: name.to_owned(), raw: outline.clone(), outline, inner: Inner::default(), notes: Vec::new() }
+    Shape {
+        name: name.to_owned(),
+        raw: outline.clone(),
+        outline,
+        inner: Inner::default(),
+        notes: Vec::new(),
+    }
 }
 
 /// A star-shaped blob: a circle with waves of falling height.

@@ -150,11 +150,11 @@ fn shapes_too_small_for_arcs_are_refused() {
 fn open_filled_paths_are_closed_as_viewers_do_and_it_is_said() {
     near(area(r#"<path d="M10 10 L90 10 L90 90 L10 90 L10 11"/>"#), 6400.0, 1e-2);
     let of = |body: &str| shape(drawing(body).as_bytes(), TOLERANCE, None, None).unwrap();
-    let (outline, notes) = of(r#"<path d="M10 10 L90 10 L90 90"/>"#);
+    let Drawing { outline, notes, .. } = of(r#"<path d="M10 10 L90 10 L90 90"/>"#);
     near(outline.area(), 3200.0, 1e-6);
     let (from, to) = (Point::new(10.0, 90.0), Point::new(90.0, 10.0));
     assert_eq!(notes, [Note::ClosedByLine { from, to }]);
-    assert!(of(r#"<path d="M10 10 L90 10 L90 90Z"/>"#).1.is_empty());
+    assert!(of(r#"<path d="M10 10 L90 10 L90 90Z"/>"#).notes.is_empty());
 }
 
 #[test]
@@ -230,8 +230,8 @@ fn other_encodings_and_parts_by_name_are_read() {
     let wide: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
     near(from_svg(&[b"\xff\xfe", &wide[..]].concat(), TOLERANCE).unwrap().area(), 400.0, 1e-6);
     let part = |name: &str| shape(text.as_bytes(), TOLERANCE, Some(name), None);
-    near(part("blume-ö").unwrap().0.area(), 81.0, 1e-6);
-    near(part("2").unwrap().0.area(), 81.0, 1e-6);
+    near(part("blume-ö").unwrap().outline.area(), 81.0, 1e-6);
+    near(part("2").unwrap().outline.area(), 81.0, 1e-6);
     assert!(matches!(part("stem"), Err(SvgError::NoSuchPart { .. })));
 }
 

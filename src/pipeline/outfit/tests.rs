@@ -385,6 +385,8 @@ fn all_of_it_goes_together() {
         hub: Some(HubChoice { diameter: None, height: 6.0, set_screw: Some(2.5) }),
         screws: None,
         lightening: Lightening::Auto,
+        face: FaceChoice::default(),
+        holes: DrawnHoles::default(),
         label: Some(Label {
             text: LabelText::Names,
             raised: true,
@@ -428,4 +430,57 @@ fn sizes_out_of_range_are_refused_with_what_would_do() {
         assert!(matches!(error, OutfitError::BadSize { .. }), "{outfit:?}");
     }
     assert_eq!(Outfit { chamfer: 4.0, ..plain() }.check(8.0), Ok(()));
+}
+
+#[test]
+fn an_inner_drawing_goes_on_the_face_clear_of_bore_and_edge() {
+    let disc = |x: f64, r: f64| -> Vec<Point> {
+        circle(r, 0.01).iter().map(|p| Point::new(p.x + x, p.y)).collect()
+    };
+    let patch =
+        |color: u8, ring| crate::input::Patch { color: [color; 3], faces: vec![vec![ring]] };
+    // A disc over the axis and the rim, with an eye in it, and a hole beside.
+    let inner = Inner {
+        patches: vec![patch(255, disc(12.0, 20.0)), patch(90, disc(20.0, 3.0))],
+        holes: vec![disc(-22.0, 4.0)],
+        lines: Vec::new(),
+    };
+    for style in [FaceStyle::Engrave, FaceStyle::Raise, FaceStyle::Cut] {
+        for fit in [FaceFit::Follow, FaceFit::Keep] {
+            let mut assembly = pair(Bore::Round { diameter: 5.0 });
+            for placed in &mut assembly.gears {
+                placed.gear.input = placed.gear.pitch_curve.clone();
+            }
+            let face = FaceChoice { style, fit, depth: None };
+            let outfit = Outfit { face, ..Outfit::default() };
+            let drawings = [inner.clone(), Inner::default()];
+            let bare = assembly_solids(&assembly).unwrap();
+            fit_out(&mut assembly, &outfit, &names(), MODULE, &drawings).unwrap();
+            let gear = &assembly.gears[0].gear;
+            let Fittings { openings, marks, .. } = &gear.fittings;
+            assert!(openings.iter().any(|o| geometry::contains(&o.ring, Point::new(-21.0, 0.0))));
+            let rings = marks.iter().flat_map(|m| &m.face).chain(openings.iter().map(|o| &o.ring));
+            for ring in rings {
+                assert!(gap(ring, &gear.outline) > 0.75 && gap(ring, &disc(0.0, 2.5)) > 0.7);
+            }
+            if style != FaceStyle::Cut {
+                // The eye is a figure of its own, in a hole of the disc.
+                assert_eq!(marks.len(), 2, "{style:?} {fit:?}");
+            }
+            let meshes = assembly_solids(&assembly).unwrap();
+            let grown = meshes[0].volume() - bare[0].volume();
+            let hole: f64 = openings.iter().map(|o| geometry::area(&o.ring)).sum::<f64>() * 8.0;
+            if style != FaceStyle::Cut {
+                assert_eq!(grown + hole > 0.0, style == FaceStyle::Raise);
+            }
+            assert_eq!(meshes[1].volume(), bare[1].volume());
+            let outfit = Outfit { holes: DrawnHoles::Fill, ..Outfit::default() };
+            let mut filled = pair(Bore::Round { diameter: 5.0 });
+            fit_out(&mut filled, &outfit, &names(), MODULE, &drawings).unwrap();
+            assert!(filled.gears[0].gear.fittings.is_empty());
+        }
+    }
+    let deep = FaceChoice { style: FaceStyle::Engrave, depth: Some(7.0), ..FaceChoice::default() };
+    let refused = fitted(&Outfit { face: deep, ..Outfit::default() });
+    assert!(matches!(refused, Err(OutfitError::BadSize { .. })));
 }

@@ -6,8 +6,8 @@ use crate::control::StageName;
 use crate::diagnose::{Code, Diagnostic};
 use crate::geometry::{self, Face, Point, Vector};
 use crate::input::Inner;
-use crate::policy;
 use crate::pipeline::outfit::Taken;
+use crate::policy;
 
 /// Rim that is left under the roots, mm and in modules, whichever is more: half of what goes all round with
 /// [`policy::LIGHTENING_RIM_MODULES`], for drawn holes are few.
@@ -48,7 +48,9 @@ pub(in super::super) fn add(
     let gone = gone.count();
     if gone > 0 {
         let warning = Diagnostic::note(Code::HolesLost, StageName::Outfitted);
-        lost = Some(warning.about(&gear.name).with("count", gone as f64).with("of", moved.len() as f64));
+        lost = Some(
+            warning.about(&gear.name).with("count", gone as f64).with("of", moved.len() as f64),
+        );
     }
     lost
 }
@@ -72,8 +74,7 @@ pub(super) fn cut(gear: &mut Gear, areas: Vec<Face>, name: &str) -> Option<Diagn
         kept += usize::from(made.len() > before);
     }
     let openings = made.into_iter().enumerate();
-    let openings =
-        openings.map(|(i, ring)| Opening { name: format!("{name} {}", i + 1), ring });
+    let openings = openings.map(|(i, ring)| Opening { name: format!("{name} {}", i + 1), ring });
     gear.fittings.openings.extend(openings);
     (kept < wanted).then(|| {
         let warning = Diagnostic::note(Code::HolesLost, StageName::Outfitted);
@@ -90,7 +91,8 @@ pub(super) fn with_bridges(areas: Vec<Face>) -> Vec<Face> {
             if area.len() < 2 {
                 return vec![area];
             }
-            let bridges: Vec<Vec<Point>> = area[1..].iter().flat_map(|i| bridges(&area, i)).collect();
+            let bridges: Vec<Vec<Point>> =
+                area[1..].iter().flat_map(|i| bridges(&area, i)).collect();
             geometry::without(&area, &lines::rings(&geometry::union(&bridges)))
         })
         .filter(|area| area.len() == 1)
@@ -109,7 +111,8 @@ fn bridges(area: &Face, island: &[Point]) -> Vec<Vec<Point>> {
             let along = Vector::new(turn.cos(), turn.sin());
             let across = geometry::quarter_turn(along) * (0.5 * WALL);
             // Out of the island, then out of the hole.
-            let mut ends: Vec<f64> = area.iter().flat_map(|r| crossings(r, middle, along)).collect();
+            let mut ends: Vec<f64> =
+                area.iter().flat_map(|r| crossings(r, middle, along)).collect();
             ends.sort_by(f64::total_cmp);
             let end = along * (ends.get(1).copied().unwrap_or(0.0) + WALL);
             vec![middle - across, middle + end - across, middle + end + across, middle + across]
@@ -123,7 +126,8 @@ fn crossings(ring: &[Point], from: Point, along: Vector) -> Vec<f64> {
     edges
         .filter_map(|(a, b)| {
             let (u, v) = (geometry::cross(along, a - from), geometry::cross(along, b - from));
-            let at = ((u > 0.0) != (v > 0.0)).then(|| (a - from + (b - a) * (u / (u - v))).dot(&along));
+            let at =
+                ((u > 0.0) != (v > 0.0)).then(|| (a - from + (b - a) * (u / (u - v))).dot(&along));
             at.filter(|t| *t > 0.0)
         })
         .collect()

@@ -135,7 +135,9 @@ pub(super) fn add(
         let inside = geometry::common(&lines::rings(&free), &room);
         figures.extend(lines::opened(&inside, nozzle));
     }
-    let wanted = covered(&place.faces(&inner.patches.iter().flat_map(|p| p.faces.clone()).collect::<Vec<_>>()));
+    let wanted = covered(
+        &place.faces(&inner.patches.iter().flat_map(|p| p.faces.clone()).collect::<Vec<_>>()),
+    );
     if cut {
         figures = holes::with_bridges(figures);
     }
@@ -202,8 +204,8 @@ impl Place {
             let inset = DEDENDUM * module + wall(nozzle);
             let faces = geometry::offset(&gear.pitch_curve, -inset, policy::OPENING_CHORD);
             let rings = faces.into_iter().filter_map(|f| f.into_iter().next());
-            let about = rings.filter(|r| geometry::contains(r, Point::origin()));
-            Warp::new(&gear.input, &about.last()?)
+            let mut about = rings.filter(|r| geometry::contains(r, Point::origin()));
+            Warp::new(&gear.input, &about.next()?)
         };
         Self { warp: if fit == FaceFit::Follow { follows() } else { None } }
     }
@@ -224,8 +226,7 @@ impl Place {
     }
 
     fn faces(&self, faces: &[Face]) -> Vec<Face> {
-        let moved: Vec<Vec<Point>> =
-            faces.iter().flatten().map(|ring| self.ring(ring)).collect();
+        let moved: Vec<Vec<Point>> = faces.iter().flatten().map(|ring| self.ring(ring)).collect();
         // Where the map folds, what lies double is once there.
         geometry::union(&moved)
     }

@@ -43,8 +43,7 @@ impl Warp {
     /// Where a point goes.
     pub(super) fn apply(&self, p: &Point) -> Point {
         let n = self.edge.len();
-        let arms: Vec<(Vector, f64)> =
-            self.edge.iter().map(|q| (q - p, (q - p).norm())).collect();
+        let arms: Vec<(Vector, f64)> = self.edge.iter().map(|q| (q - p, (q - p).norm())).collect();
         let mut sum = Vector::zeros();
         let mut weights = 0.0;
         for i in 0..n {
@@ -145,13 +144,18 @@ mod tests {
     fn an_edge_that_turns_back_is_not_turned_over() {
         // A hook: seen from the axis its edge passes some directions three times.
         let hook = [
-            (-8.0, -8.0), (8.0, -8.0), (8.0, 9.0), (-3.0, 9.0), (-3.0, 6.0), (5.0, 6.0), (5.0, 3.0), (-8.0, 3.0),
+            (-8.0, -8.0),
+            (8.0, -8.0),
+            (8.0, 9.0),
+            (-3.0, 9.0),
+            (-3.0, 6.0),
+            (5.0, 6.0),
+            (5.0, 3.0),
+            (-8.0, 3.0),
         ];
         let hook: Vec<Point> = hook.map(|(x, y)| Point::new(x, y)).to_vec();
         let mut edge = resample(&Outline::new(hook).unwrap(), 200);
-        let far = (0..200).max_by(|&i, &j| {
-            edge[i].coords.norm().total_cmp(&edge[j].coords.norm())
-        });
+        let far = (0..200).max_by(|&i, &j| edge[i].coords.norm().total_cmp(&edge[j].coords.norm()));
         edge.rotate_left(far.unwrap());
         let directions = increasing(&edge);
         assert!(directions.windows(2).all(|w| w[1] > w[0]));
