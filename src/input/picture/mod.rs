@@ -4,6 +4,7 @@ mod contour;
 mod light;
 
 use super::inner::Drawing;
+use super::note::Note;
 use crate::geometry::Point;
 use crate::outline::{Outline, OutlineError, repaired};
 use crate::policy;

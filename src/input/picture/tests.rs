@@ -230,7 +230,7 @@ fn lit(light: impl Fn(f64, f64) -> f64) -> Vec<u8> {
 
 #[test]
 fn light_that_falls_off_is_taken_out_and_said() {
-    let (outline, notes) = shape(&lit(|_, _| 1.0), None).unwrap();
+    let Drawing { outline, notes, .. } = shape(&lit(|_, _| 1.0), None).unwrap();
     assert_is_the_disc(&outline, 0.4);
     assert_eq!(notes, []);
     for light in [
@@ -238,7 +238,7 @@ fn light_that_falls_off_is_taken_out_and_said() {
         |x: f64, y: f64| 1.0 - 0.35 * x - 0.35 * y,
         |x: f64, y: f64| 1.0 - 0.7 * (x * x + y * y) / 2.0,
     ] {
-        let (outline, notes) = shape(&lit(light), None).unwrap();
+        let Drawing { outline, notes, .. } = shape(&lit(light), None).unwrap();
         assert_is_the_disc(&outline, 1.0);
         assert!(notes.contains(&Note::Uneven), "{notes:?}");
     }
@@ -250,14 +250,14 @@ fn a_picture_without_a_valley_or_cut_by_its_border_is_doubted() {
         let (dx, dy) = (f64::from(x) - 60.0, f64::from(y) - 50.0);
         Luma([(4.0 * dx.hypot(dy)).min(255.0) as u8])
     });
-    let (_, notes) = shape(&encoded(ramp, ImageFormat::Png), None).unwrap();
+    let Drawing { notes, .. } = shape(&encoded(ramp, ImageFormat::Png), None).unwrap();
     assert!(notes.contains(&Note::Faint), "{notes:?}");
     let cut = |left: u32| {
         let picture = GrayImage::from_fn(200, 200, |x, y| {
             let (dx, dy) = (f64::from(x + left) + 0.5 - 100.0, f64::from(y) + 0.5 - 100.0);
             Luma([if dx.hypot(dy) < 100.0 { 0 } else { 255 }])
         });
-        shape(&encoded(picture, ImageFormat::Png), None).unwrap().1
+        shape(&encoded(picture, ImageFormat::Png), None).unwrap().notes
     };
     assert_eq!((cut(0), cut(60)), (vec![], vec![Note::CutByBorder]));
 }
