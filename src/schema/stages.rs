@@ -217,6 +217,8 @@ impl DrawnRecord {
                 name: self.name,
                 raw: outline(points(self.raw))?,
                 outline: outline(points(self.outline))?,
+                // What is drawn inside is in the fittings of the finished gears.
+                inner: crate::input::Inner::default(),
                 notes: Vec::new(),
             }),
             gear: FittedGear {
