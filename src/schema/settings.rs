@@ -33,6 +33,10 @@ struct Settings {
     #[serde(skip_serializing_if = "Option::is_none")]
     max_torque: Option<f64>,
     max_lean: Typed,
+    /// Greatest curvature of a pitch curve times the driver's perimeter: no option of the command line, but a bound that the
+    /// teeth ask for, which stands among what was used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_curvature: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     driver_axis: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -220,6 +224,7 @@ impl Settings {
             balance: *balance,
             max_torque: limits.max_derivative,
             max_lean: deg(limits.max_lean),
+            max_curvature: limits.max_curvature,
             driver_axis: fixed.driver_axis.map(point_text),
             follower_axis: fixed.follower_axis.map(point_text),
             orientation: fixed.orientation.map(deg),
@@ -336,7 +341,7 @@ impl Settings {
                 limits: crate::fit::Limits {
                     max_derivative: self.max_torque,
                     max_lean: self.max_lean.read(words::degrees).map_err(named("max-lean"))?,
-                    max_curvature: None,
+                    max_curvature: self.max_curvature,
                 },
                 fixed: Fixed {
                     driver_axis: axis("driver-axis", self.driver_axis)?,
@@ -505,6 +510,7 @@ mod tests {
         options.fit.fixed.driver_axis = Some(Point::new(1.5, -2.0));
         options.fit.fixed.orientation = Some(0.5_f64.to_radians());
         options.fit.limits.max_derivative = Some(3.0);
+        options.fit.limits.max_curvature = Some(14.25);
         options.fit.effort = 4;
         options.fit.choose = Some(3);
         options.fit.search = Search::Coarse;
