@@ -95,6 +95,12 @@ class Gear:
         """The hole for the axle, shape ``(B, 2)``, mm; ``None`` where there is none."""
         return self._design._core.points(self._side, "bore")
 
+    @property
+    def likeness(self) -> float | None:
+        """Area of pitch curve and drawing in common over that of both together; ``None`` without a drawing."""
+        value = self._design.record.get("resemblance", {}).get(f"{self._side}_iou")
+        return None if value is None else float(value)
+
     @cached_property
     def _edges(self) -> tuple[Array, npt.NDArray[np.str_]]:
         found = self._design._core.edges(self._side)
@@ -299,7 +305,7 @@ class Design:
 
         import trimesh
 
-        return trimesh.load(io.BytesIO(self.to_bytes("glb")), file_type="glb", force="scene")
+        return trimesh.load_scene(io.BytesIO(self.to_bytes("glb")), file_type="glb")
 
     def to_mjcf(self) -> str:
         """The pair as a MuJoCo scene (XML), for ``mujoco.MjModel.from_xml_string``."""
@@ -350,4 +356,5 @@ class Design:
 
 def _turned(points: Array, angle: float) -> Array:
     cos, sin = np.cos(angle), np.sin(angle)
-    return points @ np.array([[cos, sin], [-sin, cos]])
+    turned: Array = points @ np.array([[cos, sin], [-sin, cos]])
+    return turned

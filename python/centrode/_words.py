@@ -13,7 +13,7 @@ from . import _core
 from .errors import InputError, told
 
 #: Options that belong to the command line alone.
-APART = frozenset({"output", "json", "quiet", "threads", "save-scene", "help", "version", "force", "junit", "batch"})
+APART = frozenset({"output", "json", "quiet", "threads", "save-scene", "help", "version", "junit", "batch"})
 
 
 @cache

@@ -16,7 +16,7 @@ DRIVER, FOLLOWER = DATA / "involute_24_driver.csv", DATA / "involute_48_follower
 def test_a_sound_pair_is_found_sound_from_files_and_arrays() -> None:
     report = centrode.check(DRIVER, FOLLOWER, center_distance=72, no_simulate=True)
     assert report and report.verdict and report.teeth == (24, 48) and report.ratio == pytest.approx(2.0)
-    gears = [np.loadtxt(path, delimiter=",", comments="#") for path in (DRIVER, FOLLOWER)]
+    gears = [np.loadtxt(path, delimiter=",", skiprows=3) for path in (DRIVER, FOLLOWER)]
     again = centrode.check(*gears, center_distance=72, no_simulate=True)
     assert again.verdict is report.verdict and again.teeth == report.teeth
 
