@@ -226,10 +226,10 @@ impl fmt::Display for Diagnostic {
             ),
             Code::HolesLost => write!(
                 f,
-                "{:.0} of {:.0} holes drawn in the {} are left whole: no wall would stay beside them; make the pair larger, or the bore smaller",
-                figure("count"),
+                "of the {:.0} holes drawn in the {}, {:.0} are filled, for no wall would be left beside them; make the pair larger, or the bore smaller",
                 figure("of"),
-                gear()
+                gear(),
+                figure("count")
             ),
             Code::FaceLost => write!(
                 f,
@@ -238,9 +238,9 @@ impl fmt::Display for Diagnostic {
             ),
             Code::FaceClipped => write!(
                 f,
-                "{:.0} % of the drawing on the {} is left out: teeth, axle or fittings are there",
-                100.0 * figure("share"),
-                gear()
+                "the {} loses {:.0} % of its inner drawing to teeth, axle or fittings; make the pair larger, or the bore and hub smaller",
+                gear(),
+                percent("share")
             ),
             Code::FaceLines => write!(
                 f,
@@ -325,6 +325,7 @@ mod tests {
             Code::SectorCut,
             Code::SectorWhole,
             Code::SectorKeepsContact,
+            Code::FaceLines,
         ];
         for &code in Code::ALL {
             let found = Diagnostic::warning(code, StageName::Analysed)
