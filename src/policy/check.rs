@@ -7,8 +7,6 @@ pub const TOOTHED_CHORD: f64 = 1e-5;
 pub const TOOTHED_VERTICES: usize = 4_000_000;
 /// Ends of lines and arcs this close belong together, over the diagonal of the drawing.
 pub const CHAIN_GAP: f64 = 1e-4;
-/// A list of points is open when its ends are apart by this many of its longest edges.
-pub const OPEN_LIST_GAP: f64 = 3.0;
 /// Chords of a spline between two knots.
 pub const SPLINE_CHORDS: usize = 16;
 /// How far from half the thickness a solid is cut, as a share of it: vertices often lie exactly there.

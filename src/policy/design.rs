@@ -3,55 +3,28 @@
 /// Steepest lean of a pitch curve by default, radians. With a pressure angle of 20 degrees the
 /// force then stays within 75 degrees of the motion; friction binds soon after.
 pub const DESIGN_MAX_LEAN: f64 = 55.0_f64.to_radians();
-/// Largest curvature of a pitch curve times the module, first choice. At a constant curvature flanks
-/// of 30 degrees hand motion on up to 0.40; a corner that is that sharp over less than a pitch may be sharper,
-/// and what this leaves is found by the contact analysis and repaired.
-pub const CURVATURE_TIMES_MODULE: f64 = 0.5;
-/// Factor on that bound at each repair.
-pub const CURVATURE_REPAIR: f64 = 0.75;
 /// Taken from the lean bound at each repair, radians.
 pub const LEAN_REPAIR: f64 = 5.0 * std::f64::consts::PI / 180.0;
 /// Taken from the lean bound, radians (5 and 15 degrees), for the pairs that are tried when the first one fails as rigid bodies:
 /// a little often helps, and where it does not a little more seldom does.
 pub const PROOF_REPAIRS: [f64; 2] = [LEAN_REPAIR, 3.0 * LEAN_REPAIR];
-/// Repairs tried at most, so that the work stays bounded.
-pub const REPAIRS: usize = 4;
 /// Tooth counts that are tried, smallest first.
 pub const TOOTH_COUNTS: [u32; 7] = [24, 32, 40, 48, 56, 64, 72];
-/// Change of shape (in the measure of E_s) by rounding corners below which fewer teeth are taken.
-pub const ROUNDING_ACCEPTED: f64 = 0.03;
-/// Smallest module chosen without being asked, mm: below it a common printer fails.
-pub const SMALLEST_CHOSEN_MODULE: f64 = 1.2;
 /// Fewest and most teeth on either gear.
 pub const TEETH_RANGE: (u32, u32) = (6, 1000);
 /// Distances between a flank and its chords that are taken, modules: finer ones cost minutes and megabytes for nothing that can
 /// be made or measured, coarser ones leave no tooth.
 pub const CHORD_TOLERANCE_RANGE: (f64, f64) = (4e-6, 0.1);
-/// Deepest root clearance, modules: four times the usual one; the roots of small gears then still keep away from the axis.
-pub const DEEPEST_ROOT_CLEARANCE: f64 = 1.0;
 /// Motion samples per period of the motion in every file.
 pub const MOTION_SAMPLES: usize = 1024;
 /// Points on a pitch curve in every file.
 pub const PITCH_CURVE_POINTS: usize = 720;
-/// 99th percentile of the transmission error without clearance, in pitches, that a pair should keep.
-pub const GOOD_TRANSMISSION_ERROR: f64 = 0.02;
-/// The same above which a pair is not sound.
-pub const WORST_TRANSMISSION_ERROR: f64 = 0.25;
-/// Interference of the finished gears above which a pair is not sound, in modules; without clearance what
-/// chords and carving leave by design is allowed on top.
-pub const WORST_INTERFERENCE: f64 = 1e-4;
-/// Pressure angle plus friction above which a drive is likely to bind, radians (a warning).
-pub const STEEP_PRESSURE_ANGLE: f64 = 70.0 * std::f64::consts::PI / 180.0;
 /// Largest centre distance, extent, clearance or thickness accepted, mm: ten metres.
 pub const LARGEST_LENGTH: f64 = 10_000.0;
 /// Distance between a round bore and its chords, mm.
 pub const BORE_CHORD_TOLERANCE: f64 = 0.005;
 /// Wall between bore and outline below which a bore is refused, mm: two printed lines.
 pub const BORE_WALL: f64 = 0.8;
-/// Lean below which reducing it gains less than it costs in likeness, radians.
-pub const LEAN_WORTH_REDUCING: f64 = 40.0 * std::f64::consts::PI / 180.0;
-/// Change of shape (in the measure of E_s) that a person wants to hear of.
-pub const LIMIT_WORTH_SAYING: f64 = 0.005;
 /// Height of a regular wave tooth from root to tip, in addenda: that of the involute teeth's addendum
 /// and as much dedendum.
 pub const WAVE_HEIGHT: f64 = 1.6;
@@ -81,7 +54,3 @@ pub const FIT_SAMPLES_MOST: usize = 1 << 18;
 pub const PLACEMENT_SAMPLES: usize = 1024;
 /// How far, radians, a follower's drawing may swing from the angle of the fit to overlay its pitch curve best.
 pub const PLACEMENT_SWING: f64 = 0.25;
-/// Play in pitches that fails: teeth so thin beside their gaps take hold at their tips only.
-pub const WORST_PLAY: f64 = 0.45;
-/// Play in pitches that warns.
-pub const NOTED_PLAY: f64 = 0.35;

@@ -122,24 +122,14 @@ pub const DEFAULT_THICKNESS: f64 = 8.0;
 
 /// Longest run of the driver without contact, in its pitches, before a pair fails.
 pub const WORST_FREE_RUN: f64 = 0.1;
-/// The same before a warning.
-pub const NOTED_FREE_RUN: f64 = 0.03;
-/// Windowed torque off psi' tau by more than this, in load torques without friction, fails.
-pub const WORST_TORQUE_EXCESS: f64 = 1.0;
 /// Penetration, in modules, that fails.
 pub const WORST_PENETRATION: f64 = 0.05;
 /// Net turn of the follower off psi, in its pitches, that fails: it has skipped a tooth.
 pub const WORST_NET_TURN: f64 = 0.5;
 /// Distance of the follower from the exact contact, radians (0.2 degrees), that fails.
 pub const WORST_TRACKING: f64 = 0.2 * std::f64::consts::PI / 180.0;
-/// See [`WORST_SWING`].
-pub const NOTED_SWING: f64 = 0.08;
-/// Driver angle without quasi-static contact, in driver pitches, that fails.
-pub const WORST_LOST_ARC: f64 = 0.1;
 /// Overlap of the outlines at the designed pose, in modules, that fails: past it they do not fit.
 pub const WORST_OVERLAP: f64 = 0.01;
-/// Share of the driver's work that must reach the load before a warning.
-pub const NOTED_EFFICIENCY: f64 = 0.6;
 /// Distance within which a contact belongs to a place of the outline, in modules: contacts lie on convex
 /// pieces, which leave the outline by [`HULL_TOLERANCE`] at most, and in a step's overlap.
 pub const SURFACE_REACH: f64 = 0.02;

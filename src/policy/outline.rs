@@ -36,18 +36,6 @@ pub const FLATTEN_TOLERANCE: f64 = 5e-5;
 /// larger values would bridge gaps that were drawn on purpose.
 pub const TOUCH_DISTANCE: f64 = 1e-4;
 
-/// Ends of a path nearer than this, relative to its length, count as closed: a pen lifted one
-/// step short of its start. Wider gaps are refused because the missing side can only be guessed.
-pub const OPEN_PATH_GAP: f64 = 0.01;
-
-/// How far a rectangle's sides may fall short of the canvas, relative to it, and still be
-/// taken for its background.
-pub const BACKGROUND_SLACK: f64 = 0.01;
-
-/// Least share of its bounding box that a background covers: its corners may be rounded, by up to a quarter of a square's
-/// side.
-pub const BACKGROUND_SHARE: f64 = 0.945;
-
 /// Least width or height of the largest shape of an SVG in its own units. The reader makes lines of arcs with radii below
 /// 1e-5: here those are corners of a hundredth of the shape, which smoothing would take away; below it ellipses become
 /// rhombi.

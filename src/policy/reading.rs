@@ -30,13 +30,8 @@ pub const CONTACT_MOST_MODULES: f64 = 1e6;
 pub const TEETH_BELIEVED: (u32, u32) = (1, TEETH_RANGE.1);
 /// Characters of a file's text that a message repeats at most: three lines of a terminal.
 pub const QUOTED_LENGTH: usize = 240;
-/// Pairs of ends that are compared while lines of a drawing are joined (under a second): a gear of a million lines
-/// needs a tenth of it.
-pub const CHAIN_TESTS: usize = 50_000_000;
 /// Highest degree of a spline: drawing programs stop at 25, and the work grows with its square.
 pub const SPLINE_DEGREE: usize = 25;
-/// Holes of a finished gear that are looked at: they only tell where its axis is.
-pub const TOOTHED_HOLES: usize = 256;
 /// How far the last row of a table of a motion may lie from one turn after the first and still repeat it, shares of the
 /// turn: radians with two decimals are off by half of it.
 pub const TABLE_TURN_WITHIN: f64 = 1e-3;
