@@ -1,8 +1,8 @@
 //! `centrode studio`: a page on this machine on which a pair of gears follows every change.
 //!
-//! The server is bound to loopback, answers only its own page ([`guard`]), reads no file but those that the command
-//! line names ([`drawings`]) and writes none outside the output folder ([`away`]). A tab sends whole states
-//! ([`protocol`]); a thread of its own makes the newest one ([`tab`], [`engine`]).
+//! The server is bound to loopback, answers only its own page (`guard`), reads no file but those that the command
+//! line names (`drawings`) and writes none outside the output folder (`away`). A tab sends whole states
+//! (`protocol`); a thread of its own makes the newest one (`tab`, `engine`).
 
 mod assets;
 mod away;
