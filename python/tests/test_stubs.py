@@ -41,11 +41,11 @@ def test_everything_public_is_documented() -> None:
     assert (PACKAGE / "py.typed").is_file()
 
 
-def test_mypy_agrees() -> None:
+def test_mypy_agrees(tmp_path: Path) -> None:
     pytest.importorskip("mypy")
     config = Path(__file__).parents[1] / "pyproject.toml"
     made = subprocess.run(
         [sys.executable, "-m", "mypy", "--config-file", str(config), "-p", "centrode"],
-        capture_output=True, text=True, cwd=PACKAGE.parent,
+        capture_output=True, text=True, cwd=tmp_path,
     )
     assert made.returncode == 0, made.stdout + made.stderr
