@@ -74,7 +74,7 @@ def design(
     NotSound
         Where no sound pair was found; it carries the pair and its diagnostics.
     KeyboardInterrupt
-        Within 100 ms of Ctrl-C.
+        Soon after Ctrl-C: the work looks for it 40 times a second.
     """
     return _made("design", [given(driver, "driver"), given(follower, "follower")], options, progress, threads, force)
 

@@ -17,6 +17,7 @@ const FILES: &[(&str, &str)] = page! {
     "alternatives.js"
     "away.js"
     "controls.js"
+    "curves.js"
     "dom.js"
     "drawings.js"
     "findings.js"

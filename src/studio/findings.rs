@@ -159,25 +159,9 @@ fn along(curve: &[Point], share: f64) -> Option<Point> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::example::pair;
     use super::*;
-    use centrode::control::{Control, StageName};
-    use centrode::pipeline::{DesignOptions, Request, ToothCount};
-    use centrode::pitch::Transmission;
-
-    fn pair() -> Design {
-        let speeds: Vec<f64> =
-            (0..64).map(|i| 1.0 + 0.2 * (TAU * f64::from(i) / 64.0).cos()).collect();
-        let law = Transmission::from_derivative(&speeds, 2, 2).unwrap();
-        let options = DesignOptions {
-            teeth: ToothCount::Teeth(24),
-            runs: Vec::new(),
-            ..DesignOptions::default()
-        };
-        Request::motion(law, ["a".to_owned(), "b".to_owned()])
-            .with(options)
-            .design(Control::unwatched())
-            .unwrap()
-    }
+    use centrode::control::StageName;
 
     #[test]
     fn remedies_turn_settings_the_way_that_helps() {

@@ -9,6 +9,8 @@ mod away;
 mod controls;
 mod drawings;
 mod engine;
+#[cfg(test)]
+mod example;
 mod findings;
 mod guard;
 mod protocol;

@@ -326,25 +326,8 @@ fn files(app: &App, order: &Order, made: &Design, place: Place) -> Result<Respon
 
 #[cfg(test)]
 mod tests {
+    use super::super::example::pair;
     use super::*;
-    use std::f64::consts::TAU;
-
-    use centrode::control::Control;
-    use centrode::pipeline::{DesignOptions, Request, ToothCount};
-    use centrode::pitch::Transmission;
-
-    fn pair() -> Design {
-        let speeds: Vec<f64> =
-            (0..64).map(|i| 1.0 + 0.2 * (TAU * f64::from(i) / 64.0).cos()).collect();
-        let law = Transmission::from_derivative(&speeds, 2, 2).unwrap();
-        let options = DesignOptions {
-            teeth: ToothCount::Teeth(24),
-            runs: Vec::new(),
-            ..DesignOptions::default()
-        };
-        let names = ["a".to_owned(), "b".to_owned()];
-        Request::motion(law, names).with(options).design(Control::unwatched()).unwrap()
-    }
 
     fn wish(text: &str) -> Wish {
         serde_json::from_str(text).unwrap()

@@ -1,24 +1,12 @@
 // Other pairs that the same drawings make, small and turning; one click takes one.
 
+import { pathOf, reach } from "./curves.js";
 import { el, fill } from "./dom.js";
 import { shown } from "./numbers.js";
 import { T } from "./texts.js";
 import { color, onTheme } from "./theme.js";
 
 const [WIDTH, HEIGHT] = [112, 62];
-
-const pathOf = (flat) => {
-  const made = new Path2D();
-  for (let i = 0; i < flat.length; i += 2) made[i ? "lineTo" : "moveTo"](flat[i], flat[i + 1]);
-  made.closePath();
-  return made;
-};
-
-const reach = (flat) => {
-  let most = 0;
-  for (let i = 0; i < flat.length; i += 2) most = Math.max(most, Math.hypot(flat[i], flat[i + 1]));
-  return most;
-};
 
 class Small {
   constructor(pair, number, store) {

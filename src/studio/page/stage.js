@@ -1,5 +1,6 @@
 // The pair, large: drawn on a canvas, turned, zoomed and grasped.
 
+import { reach } from "./curves.js";
 import { el } from "./dom.js";
 import { icon } from "./icons.js";
 import { clamp } from "./numbers.js";
@@ -16,12 +17,6 @@ const ringPath = (flat) => {
   for (let i = 2; i < flat.length; i += 2) path.lineTo(flat[i], flat[i + 1]);
   path.closePath();
   return path;
-};
-
-const reach = (flat) => {
-  let most = 0;
-  for (let i = 0; i < flat.length; i += 2) most = Math.max(most, flat[i] * flat[i] + flat[i + 1] * flat[i + 1]);
-  return Math.sqrt(most);
 };
 
 export class Stage {

@@ -1,6 +1,7 @@
 // Trains: the pair put on, gear after gear, in a row or by hand.
 
 import { takeTrain } from "./away.js";
+import { pathOf, reach } from "./curves.js";
 import { el, fill, toast } from "./dom.js";
 import { icon } from "./icons.js";
 import { clamp, degrees } from "./numbers.js";
@@ -13,19 +14,6 @@ const FIRST = { layout: "auto", gears: 4, links: [] };
 const MOST = 60;
 // Room that the panel at the foot takes, px.
 const FOOT = 150;
-
-const pathOf = (flat) => {
-  const path = new Path2D();
-  for (let i = 0; i < flat.length; i += 2) path[i ? "lineTo" : "moveTo"](flat[i], flat[i + 1]);
-  path.closePath();
-  return path;
-};
-
-const reach = (flat) => {
-  let most = 0;
-  for (let i = 0; i < flat.length; i += 2) most = Math.max(most, Math.hypot(flat[i], flat[i + 1]));
-  return most;
-};
 
 const turned = (direction) => ((direction + 540) % 360 + 360) % 360 - 180;
 

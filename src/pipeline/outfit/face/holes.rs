@@ -47,10 +47,9 @@ pub(in super::super) fn add(
     });
     let gone = gone.count();
     if gone > 0 {
-        let warning = Diagnostic::note(Code::HolesLost, StageName::Outfitted);
-        lost = Some(
-            warning.about(&gear.name).with("count", gone as f64).with("of", moved.len() as f64),
-        );
+        let note = Diagnostic::note(Code::HolesLost, StageName::Outfitted);
+        lost =
+            Some(note.about(&gear.name).with("count", gone as f64).with("of", moved.len() as f64));
     }
     lost
 }
@@ -77,9 +76,9 @@ pub(super) fn cut(gear: &mut Gear, areas: Vec<Face>, name: &str) -> Option<Diagn
     let openings = openings.map(|(i, ring)| Opening { name: format!("{name} {}", i + 1), ring });
     gear.fittings.openings.extend(openings);
     (kept < wanted).then(|| {
-        let warning = Diagnostic::note(Code::HolesLost, StageName::Outfitted);
+        let note = Diagnostic::note(Code::HolesLost, StageName::Outfitted);
         let lost = (wanted - kept) as f64;
-        warning.about(&gear.name).with("count", lost).with("of", wanted as f64)
+        note.about(&gear.name).with("count", lost).with("of", wanted as f64)
     })
 }
 
