@@ -495,7 +495,7 @@ fn page(made: &Made) -> ReportData {
         summary: if made.faults.is_empty() {
             "Every mesh keeps its contact through the whole cycle.".to_owned()
         } else {
-            made.faults.join(" ")
+            centrode::results::in_sentences(&made.faults)
         },
         sections,
         plots,

@@ -10,6 +10,7 @@ mod data;
 mod page;
 mod picture;
 mod plot;
+mod rings;
 mod sheet;
 mod text;
 mod thin;

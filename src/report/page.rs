@@ -3,9 +3,9 @@
 use super::contacts;
 use super::data::{NoteKind, ReportData, Row, Section};
 use super::plot::Scaled;
+use super::rings::Rings;
 use super::text::{Grid, escape, json_for_script, plain};
-use super::thin::thin_ring;
-use crate::assembly::{Assembly, Gear, PlacedGear};
+use crate::assembly::{Assembly, PlacedGear};
 use crate::diagnose::{Code, Verdict};
 use crate::geometry::{self, Point};
 use crate::policy::{
@@ -152,47 +152,6 @@ struct Stage {
     extent: f64,
 }
 
-/// The curves of one gear in its own frame.
-struct Rings {
-    outline: Vec<Point>,
-    bore: Vec<Point>,
-    pitch_curve: Vec<Point>,
-    input: Vec<Point>,
-}
-
-impl Rings {
-    fn of(gear: &Gear) -> Self {
-        let finite = |ring: &[Point]| -> Vec<Point> {
-            ring.iter().filter(|p| p.x.is_finite() && p.y.is_finite()).copied().collect()
-        };
-        Self {
-            outline: finite(&gear.outline),
-            bore: finite(gear.bore.as_deref().unwrap_or_default()),
-            pitch_curve: finite(&gear.pitch_curve),
-            input: finite(&gear.input),
-        }
-    }
-
-    fn thinned(&self, tolerance: f64) -> Self {
-        Self {
-            outline: thin_ring(&self.outline, tolerance),
-            bore: thin_ring(&self.bore, tolerance),
-            pitch_curve: thin_ring(&self.pitch_curve, tolerance),
-            input: thin_ring(&self.input, tolerance),
-        }
-    }
-
-    fn points(&self) -> usize {
-        self.outline.len() + self.bore.len() + self.pitch_curve.len() + self.input.len()
-    }
-
-    /// The largest distance from the axis of anything drawn.
-    fn reach(&self) -> f64 {
-        let all = self.outline.iter().chain(&self.pitch_curve).chain(&self.input);
-        all.map(|p| p.coords.norm()).fold(0.0, f64::max)
-    }
-}
-
 impl Stage {
     fn new(assembly: &Assembly) -> Self {
         let full: Vec<Rings> = assembly.gears.iter().map(|g| Rings::of(&g.gear)).collect();
@@ -299,8 +258,11 @@ impl Stage {
             }
             out.push_str("</g>\n");
         };
-        layer("ghost", &|r| self.grid.ring(&r.input) + &self.grid.ring(&r.bore), out);
-        layer("body", &|r| self.grid.ring(&r.outline) + &self.grid.ring(&r.bore), out);
+        let all =
+            |rings: &[Vec<Point>]| rings.iter().map(|r| self.grid.ring(r)).collect::<String>();
+        layer("ghost", &|r| self.grid.ring(&r.input) + &all(&r.holes), out);
+        layer("body", &|r| self.grid.ring(&r.outline) + &all(&r.holes), out);
+        layer("marks", &|r| all(&r.marks), out);
         layer("drawing", &|r| self.grid.ring(&r.input), out);
         layer("pitch", &|r| self.grid.ring(&r.pitch_curve), out);
         let centers: Vec<Point> = assembly.gears.iter().map(axis_of).collect();

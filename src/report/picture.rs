@@ -7,6 +7,8 @@ use crate::policy::PICTURE_DIGITS;
 use std::fmt::Write as _;
 
 /// Fill, outline and ink of the driver and of what it drives; a train alternates them.
+/// Over light gears, and over dark ones.
+const MARK_INKS: [&str; 2] = ["#000", "#fff"];
 const GEAR_STYLES: [(&str, &str); 2] = [("#8fc3ea", "#4f8fc2"), ("#1f4e8c", "#12315a")];
 const PITCH_INK: &str = "#e8702a";
 const GHOST_INK: &str = "#8a94a1";
@@ -48,6 +50,8 @@ struct Posed<'a> {
     outline: Vec<Point>,
     bore: Vec<Point>,
     openings: Vec<Vec<Point>>,
+    /// What is raised or sunk on the face.
+    marks: Vec<Vec<Point>>,
     pitch_curve: Vec<Point>,
     input: Vec<Point>,
     axis: Point,
@@ -67,6 +71,7 @@ impl<'a> Posed<'a> {
             outline: place(&gear.outline),
             bore: place(gear.bore.as_deref().unwrap_or_default()),
             openings: gear.fittings.openings.iter().map(|o| place(&o.ring)).collect(),
+            marks: gear.fittings.marks.iter().flat_map(|m| &m.face).map(|r| place(r)).collect(),
             pitch_curve: place(&gear.pitch_curve),
             input: place(&gear.input),
             axis: flip(placed.axis),
@@ -159,7 +164,8 @@ impl Sheet {
             "<g id=\"gears\" fill-rule=\"evenodd\" stroke-width=\"{}\" stroke-linejoin=\"round\">",
             self.u(0.15)
         );
-        for (gear, (fill, edge)) in gears.iter().zip(GEAR_STYLES.iter().cycle()) {
+        let styles = GEAR_STYLES.iter().zip(MARK_INKS).cycle();
+        for (gear, ((fill, edge), ink)) in gears.iter().zip(styles) {
             let outline = self.grid.ring(&gear.outline);
             let holes = gear.openings.iter().chain([&gear.bore]);
             let bore: String = holes.map(|ring| self.grid.ring(ring)).collect();
@@ -168,6 +174,10 @@ impl Sheet {
                 "<path fill=\"{fill}\" stroke=\"{edge}\" d=\"{outline}{bore}\"><title>{}</title></path>",
                 escape(&gear.placed.gear.name)
             );
+            if !gear.marks.is_empty() {
+                let marks: String = gear.marks.iter().map(|ring| self.grid.ring(ring)).collect();
+                let _ = writeln!(out, "<path fill=\"{ink}\" fill-opacity=\".35\" d=\"{marks}\"/>");
+            }
         }
         out.push_str("</g>\n");
     }

@@ -26,7 +26,7 @@ pub fn bare_page(saved: &SavedDesign, report: &MeshingReport) -> ReportData {
         summary: if said.is_empty() {
             "The pair meshes: contact is kept and the torque arrives.".to_owned()
         } else {
-            said.join(" ")
+            super::in_sentences(&said)
         },
         sections: std::iter::once(gears).chain(run_sections(report)).collect(),
         plots: run_plots(report),

@@ -155,8 +155,8 @@ pub fn design_page(made: &Design, command: String) -> ReportData {
         Verdict::Good => {
             "Contact is never lost and nothing overlaps through the whole cycle.".to_owned()
         }
-        Verdict::Warnings => made.told(Severity::Warning).join(" "),
-        Verdict::Unsound => made.told(Severity::Fault).join(" "),
+        Verdict::Warnings => super::in_sentences(&made.told(Severity::Warning)),
+        Verdict::Unsound => super::in_sentences(&made.told(Severity::Fault)),
     };
     ReportData {
         title: format!("{} and {}", made.names[0], made.names[1]),
@@ -202,7 +202,7 @@ fn sections(made: &Design) -> Vec<Section> {
         .noted_row(
             "Clearance",
             format!("{:.3} mm", made.options.clearance),
-            "inward offset of every face, per gear",
+            "of each gear, along the normal of its flanks",
         );
     if let Some(bore) = bore(made) {
         gears = gears.row("Bore", bore);
