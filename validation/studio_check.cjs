@@ -111,6 +111,8 @@ const main = async () => {
     must(await option("clearance") === "0.12", `clearance is ${await option("clearance")}`);
     await field.fill("much");
     await field.press("Enter");
+    // The answer to the number before must not take the reason away.
+    await reached(page, "analysed");
     must(await page.locator("[data-key=clearance] .why").isVisible(), "no reason is given");
     must(await option("clearance") === "0.12", "the state took it");
     await page.locator("[data-key=clearance] .reset").click();

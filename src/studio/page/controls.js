@@ -72,11 +72,12 @@ class Control {
   typed() {
     const { key, from, step } = this.spec;
     const text = this.field.value.trim();
+    this.mistake = "";
     if (text === "") { this.store.setOption(key, null); return; }
     if (key === "center-distance" && /^lego:\d+$/.test(text)) { this.store.setOption(key, text); return; }
     const value = read(text);
-    if (!Number.isFinite(value)) { this.complain(T.notNumber); return; }
-    if (value < Math.min(0, from)) { this.complain(T.outOf(Math.min(0, from))); return; }
+    if (!Number.isFinite(value)) { this.mistaken(T.notNumber); return; }
+    if (value < Math.min(0, from)) { this.mistaken(T.outOf(Math.min(0, from))); return; }
     this.store.setOption(key, written(value, Math.min(step, 1e-4)));
   }
 
@@ -84,6 +85,12 @@ class Control {
     const { from, to } = this.spec;
     const said = numberIn(this.value ?? this.spec.default);
     return Number.isFinite(said) ? said : this.found ?? (from + to) / 2;
+  }
+
+  // Stays for as long as what was typed stands in the field, whatever the program answers meanwhile.
+  mistaken(text) {
+    this.mistake = text;
+    this.complain(text);
   }
 
   complain(text) {
@@ -95,6 +102,7 @@ class Control {
   // `found` is what the program chose by itself, for controls that leave it the choice.
   show(value, found, barredBy) {
     const { kind, step } = this.spec;
+    if (value !== this.value) this.mistake = "";
     this.value = value;
     this.found = found;
     this.reset.disabled = value === undefined;
@@ -107,6 +115,7 @@ class Control {
     if (document.activeElement !== this.field || kind !== "number" || this.holding) {
       const text = value ?? this.spec.default ?? "";
       const plain = numberIn(text);
+      this.mistake = "";
       this.field.value = kind === "number" && Number.isFinite(plain) ? written(plain, Math.min(step, 1e-4)) : text;
       if (kind === "number") this.field.placeholder = Number.isFinite(found) ? `${T.chosen} ${written(found, Math.max(step, found >= 10 ? 1 : 0.1))}` : T.chosen;
       else if (kind === "point" && found) this.field.placeholder = found;
@@ -156,7 +165,7 @@ export class Controls {
     for (const [key, control] of this.controls) {
       const barredBy = control.spec.conflicts.find((other) => state.options[other] !== undefined && state.options[key] === undefined && this.controls.has(other));
       control.show(state.options[key], found[key], barredBy);
-      if (!barredBy) control.complain(model.refused?.option === key ? model.refused.text : "");
+      if (!barredBy) control.complain(control.mistake || (model.refused?.option === key ? model.refused.text : ""));
     }
     for (const [name, controls] of this.groups) {
       const changed = controls.filter((c) => state.options[c.spec.key] !== undefined).length;
